@@ -1,0 +1,128 @@
+#include "runtime/base/host.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstring>
+#include <filesystem>
+#include <system_error>
+
+namespace garment {
+namespace {
+
+volatile std::sig_atomic_t interrupt_count = 0;
+
+extern "C" void on_interrupt(int) {
+  // A second Ctrl-C means "now": give the signal back to the system.
+  if (++interrupt_count > 1) {
+    std::signal(SIGINT, SIG_DFL);
+    std::raise(SIGINT);
+  }
+}
+
+HostError last_error() { return {std::strerror(errno)}; }
+
+class Descriptor {
+ public:
+  explicit Descriptor(int fd) : fd_(fd) {}
+  ~Descriptor() {
+    if (fd_ >= 0) ::close(fd_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int get() const { return fd_; }
+  int release() { return std::exchange(fd_, -1); }
+
+ private:
+  int fd_;
+};
+
+bool write_all(int fd, std::string_view bytes) {
+  while (!bytes.empty()) {
+    ssize_t n = ::write(fd, bytes.data(), bytes.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return false;
+    bytes.remove_prefix(static_cast<std::size_t>(n));
+  }
+  return true;
+}
+
+class SystemHost final : public Host {
+ public:
+  HostResult<std::string> read_file(const std::string& path, std::uint64_t max_bytes) override {
+    Descriptor fd(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+    if (fd.get() < 0) return {std::nullopt, last_error()};
+    struct stat info {};
+    if (::fstat(fd.get(), &info) != 0) return {std::nullopt, last_error()};
+    if (S_ISDIR(info.st_mode)) return {std::nullopt, {"is a folder, not a file"}};
+    if (!S_ISREG(info.st_mode)) return {std::nullopt, {"is not a regular file"}};
+    if (static_cast<std::uint64_t>(info.st_size) > max_bytes)
+      return {std::nullopt, {fmt::format("has {} bytes, at most {} are read", info.st_size, max_bytes)}};
+    std::string bytes(static_cast<std::size_t>(info.st_size), '\0');
+    std::size_t have = 0;
+    while (have < bytes.size()) {
+      ssize_t n = ::read(fd.get(), bytes.data() + have, bytes.size() - have);
+      if (n < 0 && errno == EINTR) continue;
+      if (n < 0) return {std::nullopt, last_error()};
+      if (n == 0) break;
+      have += static_cast<std::size_t>(n);
+    }
+    bytes.resize(have);
+    return {std::move(bytes), {}};
+  }
+
+  HostResult<bool> write_file(const std::string& path, std::string_view bytes) override {
+    std::filesystem::path target(path);
+    std::error_code code;
+    if (target.has_parent_path()) std::filesystem::create_directories(target.parent_path(), code);
+    if (code) return {std::nullopt, {code.message()}};
+    std::string temporary = path + ".XXXXXX.tmp";
+    Descriptor fd(::mkostemps(temporary.data(), 4, O_CLOEXEC));
+    if (fd.get() < 0) return {std::nullopt, last_error()};
+    auto fail = [&]() -> HostResult<bool> {
+      HostError error = last_error();
+      ::unlink(temporary.c_str());
+      return {std::nullopt, error};
+    };
+    if (!write_all(fd.get(), bytes)) return fail();
+    ::fchmod(fd.get(), 0644);
+    if (::close(fd.release()) != 0) return fail();
+    if (::rename(temporary.c_str(), path.c_str()) != 0) return fail();
+    return {true, {}};
+  }
+
+  double seconds() override {
+    using namespace std::chrono;
+    return duration<double>(steady_clock::now().time_since_epoch()).count();
+  }
+
+  bool interrupted() override { return interrupt_count > 0; }
+
+  std::uint64_t peak_memory() override {
+    struct rusage usage {};
+    if (::getrusage(RUSAGE_SELF, &usage) != 0) return 0;
+    return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+  }
+};
+
+}  // namespace
+
+Host& system_host() {
+  static SystemHost host;
+  return host;
+}
+
+void install_interrupt_handler() {
+  struct sigaction action {};
+  action.sa_handler = on_interrupt;
+  sigemptyset(&action.sa_mask);
+  ::sigaction(SIGINT, &action, nullptr);
+}
+
+}  // namespace garment

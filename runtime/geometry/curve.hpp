@@ -1,0 +1,77 @@
+#pragma once
+// Plane curves: the edges of panels. Arc length is the parameter that everyone else uses.
+#include <Eigen/Geometry>
+#include <variant>
+#include <vector>
+
+namespace garment::geometry {
+
+using Point2 = Eigen::Vector2d;
+
+struct Line {};
+/// One control point.
+struct Quadratic {
+  Point2 control;
+};
+/// Two control points; also what `tangents` becomes.
+struct Cubic {
+  Point2 control_1, control_2;
+};
+/// Circular arc. `bulge` is the signed sagitta in metres, positive to the left of the way walked; |bulge| may exceed half
+/// the chord (then it is the large arc). Zero is a straight line.
+struct Arc {
+  double bulge = 0;
+};
+/// Centripetal Catmull-Rom spline through `points` (interior points only; the ends are the curve's ends).
+struct Through {
+  std::vector<Point2> points;
+};
+
+/// A curve from `start` to `end`, metres. Value type; the arc-length table is made at construction, so it is cheap to ask.
+class Curve {
+ public:
+  using Shape = std::variant<Line, Quadratic, Cubic, Arc, Through>;
+
+  Curve() = default;  ///< a line of no length at the origin
+  Curve(Point2 start, Point2 end, Shape shape = Line{});
+
+  const Point2& start() const { return start_; }
+  const Point2& end() const { return end_; }
+  const Shape& shape() const { return shape_; }
+
+  double length() const;
+  /// Point at arc length `s` in [0, length] (clamped).
+  Point2 point_at(double s) const;
+  /// Unit tangent at arc length `s`, in the direction walked.
+  Point2 tangent_at(double s) const;
+  /// 1/2 of the integral of (x dy - y dx): by Green's theorem a closed loop of curves adds up to its exact signed area.
+  double area_term() const;
+  /// Integral over the region swept from the origin, first moments: closed loops add up to area * centroid.
+  Point2 moment_term() const;
+
+  Curve reversed() const;
+  Curve mirrored_x(double axis_x) const;                       ///< x -> 2 axis_x - x
+  Curve transformed(const Eigen::Isometry2d& motion) const;
+  Curve scaled(double factor) const;                           ///< about the origin
+
+  /// Polyline with chord error at most `tolerance` metres, both ends included; `at` receives the arc length of each point.
+  std::vector<Point2> polyline(double tolerance, std::vector<double>* at = nullptr) const;
+  /// Arc length of the nearest point on the curve.
+  double nearest(const Point2& p) const;
+  /// Arc lengths, ascending, where the curve crosses the line n . x = offset.
+  std::vector<double> crossings(const Point2& normal, double offset) const;
+
+ private:
+  Point2 start_{0, 0}, end_{0, 0};
+  Shape shape_;
+  // pieces_ and the arc-length table: see curve.cpp
+  struct Piece {  // cubic Bezier, or an arc when radius > 0
+    Point2 p[4];
+    Point2 center;
+    double radius = 0, angle_0 = 0, sweep = 0;
+  };
+  std::vector<Piece> pieces_;
+  std::vector<double> table_s_, table_t_;  // t in [0, number of pieces]
+};
+
+}  // namespace garment::geometry

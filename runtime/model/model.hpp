@@ -1,0 +1,126 @@
+#pragma once
+// The const particle Model: struct of arrays, SI units, made by the modeller and never changed by the simulator.
+// It carries no knowledge of the declared garment beyond names and origin ids.
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "runtime/base/origin.hpp"
+
+namespace garment::model {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using Index = std::int32_t;
+template <int N>
+using Indices = std::array<Index, N>;
+
+/// Tensile law N(strain) in N/m, tabulated as a monotone cubic (Hermite) on knots; linear outside the first and last knot.
+struct TensileLaw {
+  std::vector<double> strain;   ///< ascending; 0 is a knot
+  std::vector<double> force;    ///< N/m, ascending, 0 at strain 0
+  std::vector<double> slope;    ///< dN/dstrain at the knots, > 0
+};
+
+struct PanelRange {
+  std::string name;
+  OriginId origin;
+  Index first_vertex = 0, n_vertices = 0;
+  Index first_triangle = 0, n_triangles = 0;
+  double area = 0;              ///< exact area of the outline (darts cut away), m^2
+  double mass = 0;              ///< kg
+  std::array<double, 3> color{0.5, 0.5, 0.5};
+};
+
+/// Pairs of particles that a seam brings together. Merged seams have none (their gap is zero by construction) but keep
+/// the chain of particles, for reports.
+struct SeamChain {
+  std::string name;
+  OriginId origin;
+  std::vector<Index> particles; ///< along the seam
+  double length = 0;            ///< sewn length of the first side, m
+};
+
+enum class HoldKind : std::uint8_t {
+  point,   ///< stays at `hold_point`
+  plane,   ///< stays in the plane through `hold_point` with normal `hold_normal` (sliding along a level)
+};
+
+/// How the arrays speak of one another:
+///   particle   a mass point of the simulation; seams merge particles of several panels
+///   vertex     a particle as one panel sees it, with its place in the flat pattern (uv)
+struct Model {
+  // --- particles [n]
+  std::vector<double> mass;                      ///< kg
+  std::vector<Vector3d> start;                   ///< initial positions, m
+  std::vector<double> thickness;                 ///< of the cloth at the particle, m (largest of the panels it joins)
+  std::vector<double> friction;                  ///< Coulomb, cloth on body
+  // --- vertices [m]
+  std::vector<Index> vertex_particle;
+  std::vector<Index> vertex_panel;
+  std::vector<Vector2d> vertex_uv;               ///< (weft, warp) coordinates rotated back: panel coordinates x, y, m
+  // --- triangles: the one triangulation for collision, certificate and written meshes
+  std::vector<Indices<3>> triangle;              ///< vertex ids, counter-clockwise seen on the cloth's face
+  std::vector<Index> triangle_panel;
+  // --- full cells: springs, trellis, twist
+  //        3---2      h2 along warp        spring i-j: force = width * N(l/l0 - 1)
+  //        |   |                           trellis: per corner quarter cell, energy G phi^2/2
+  //        0---1      h1 along weft        twist: E = 2 Ct kappa_12^2 A_t
+  std::vector<Indices<2>> spring;                ///< particle ids
+  std::vector<double> spring_rest;               ///< l0, m
+  std::vector<double> spring_width;              ///< tributary width p, m
+  std::vector<Index> spring_law;                 ///< index into laws
+  std::vector<Index> spring_panel;
+  std::vector<Indices<4>> cell;                  ///< particle ids 0..3 as drawn above
+  std::vector<Vector2d> cell_size;               ///< (h1, h2), m
+  std::vector<double> cell_shear;                ///< G, N/m per rad
+  std::vector<double> cell_twist;                ///< Ct times the share of the cell that twists here, N m (0..Ct)
+  // --- cut cells: E = A [Psi1(|U|-1) + Psi2(|V|-1) + G phi^2/2], U = dx/d(warp), V = dx/d(weft)
+  std::vector<Indices<3>> membrane;              ///< particle ids
+  std::vector<std::array<double, 6>> membrane_weights;  ///< U = sum w[k] x_k, V = sum w[3+k] x_k, 1/m
+  std::vector<double> membrane_area;             ///< m^2
+  std::vector<Indices<2>> membrane_law;          ///< warp law, weft law
+  std::vector<double> membrane_shear;            ///< G
+  std::vector<Index> membrane_panel;
+  // --- bending along grid lines: E = p hbar/2 B (psi(theta)/hbar)^2, psi(x) = 2 tan(x/2), hbar = (h- + h+)/2
+  std::vector<Indices<3>> bend;                  ///< particle ids (before, at, after)
+  std::vector<Vector2d> bend_lengths;            ///< (h-, h+), m
+  std::vector<double> bend_width;                ///< p, m
+  std::vector<double> bend_rigidity;             ///< B, N m
+  // --- bending where no grid stencil fits (borders, across seams and darts): least-squares quadratic in a developed
+  //     chart. K_a = sum_j w_ja x_j is the curvature vector (a = 11, 22, 12); E = A/2 sum_ab D_ab K_a . K_b
+  std::vector<Index> fit_begin;                  ///< CSR [n_fits + 1]
+  std::vector<Index> fit_particle;               ///< particle ids
+  std::vector<Vector3d> fit_weight;              ///< (w_11, w_22, w_12), 1/m^2
+  std::vector<double> fit_area;                  ///< m^2
+  std::vector<std::array<double, 6>> fit_rigidity;  ///< D: 11, 22, 12-12, 11-22, 11-12, 22-12, N m
+  // --- holds
+  std::vector<Index> hold_particle;
+  std::vector<HoldKind> hold_kind;
+  std::vector<Vector3d> hold_point;
+  std::vector<Vector3d> hold_normal;
+  // --- tables
+  std::vector<TensileLaw> laws;
+  std::vector<PanelRange> panels;
+  std::vector<SeamChain> seams;
+  Vector3d gravity{0, -9.80665, 0};
+
+  std::size_t n_particles() const { return mass.size(); }
+  std::size_t n_vertices() const { return vertex_particle.size(); }
+  std::size_t n_triangles() const { return triangle.size(); }
+  /// Particle ids of triangle t.
+  Indices<3> corners(std::size_t t) const {
+    return {vertex_particle[triangle[t][0]], vertex_particle[triangle[t][1]], vertex_particle[triangle[t][2]]};
+  }
+};
+
+/// What changes while the garment drapes.
+struct State {
+  std::vector<Vector3d> position;                ///< m [n_particles]
+  std::vector<Vector3d> velocity;                ///< m/s [n_particles]
+  double time = 0;                               ///< s
+};
+
+}  // namespace garment::model

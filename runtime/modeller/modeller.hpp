@@ -1,0 +1,28 @@
+#pragma once
+// The 2D/3D Modeller: declared garment in, particle Model out (source paper, section 3 and Table 1).
+#include <optional>
+#include <vector>
+
+#include "runtime/base/finding.hpp"
+#include "runtime/body/body.hpp"
+#include "runtime/design/garment.hpp"
+#include "runtime/model/model.hpp"
+
+namespace garment::modeller {
+
+struct ModelOptions {
+  double resolution = 0;  ///< grid spacing for every panel, m; 0: what each panel states
+  std::size_t max_particles = 2'000'000;
+};
+
+struct ModelResult {
+  std::optional<model::Model> model;  ///< nothing when there are errors
+  Findings findings;
+};
+
+/// Grids every panel, closes darts, sews (merges) the seams, gives masses, springs and bending stencils, places the
+/// garment on its bodies. `bodies` are the built bodies of `garment.bodies`, in the same order.
+ModelResult build_model(const design::Garment& garment, const std::vector<body::Body>& bodies,
+                        const ModelOptions& options = {});
+
+}  // namespace garment::modeller

@@ -1,0 +1,50 @@
+#pragma once
+// The quasi-static drape: from the placed garment to rest by force (design "physics", section 3.2).
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "runtime/base/finding.hpp"
+#include "runtime/body/body.hpp"
+#include "runtime/model/model.hpp"
+
+namespace garment::simulator {
+
+enum class Settle { preview, equilibrium, exact };
+
+struct DrapeProgress {
+  int step = 0;
+  std::size_t particles = 0;
+  double residual = 0;        ///< RMS net force over RMS particle weight
+  double target = 0;          ///< residual at which the garment rests
+  double largest_step = 0;    ///< m, of the last step
+  const char* phase = "";     ///< "dressing", "settling"
+};
+
+struct DrapeSettings {
+  Settle settle = Settle::equilibrium;
+  int max_steps = 4000;
+  bool self_collision = true;
+  std::function<void(const DrapeProgress&)> progress;  ///< called between steps; may be empty
+  std::function<bool()> interrupted;                   ///< asked between steps; may be empty
+};
+
+enum class DrapeStatus { at_rest, interrupted, not_settled, tangled, diverged };
+
+struct DrapeReport {
+  DrapeStatus status = DrapeStatus::not_settled;
+  int steps = 0;
+  double residual = 0;              ///< RMS residual over RMS particle weight, from the final positions
+  double newton_step = 0;           ///< predicted largest Newton step, m
+  double energy = 0;                ///< elastic + gravity, J
+  std::size_t self_intersections = 0;   ///< triangle pairs, exact test
+  std::size_t body_intersections = 0;   ///< triangle pairs cloth x body, exact test
+  std::size_t inside_body = 0;          ///< particles inside a body
+  Findings findings;                ///< what could not be reached, with the panel that is the cause
+};
+
+/// Moves `state` to rest. On return `state` holds the last consistent positions, whatever the status.
+DrapeReport drape(const model::Model& model, const std::vector<body::Body>& bodies, model::State& state,
+                  const DrapeSettings& settings);
+
+}  // namespace garment::simulator
