@@ -12,6 +12,7 @@
 #include <cstring>
 #include <filesystem>
 #include <system_error>
+#include <utility>
 
 namespace garment {
 namespace {
@@ -20,7 +21,8 @@ volatile std::sig_atomic_t interrupt_count = 0;
 
 extern "C" void on_interrupt(int) {
   // A second Ctrl-C means "now": give the signal back to the system.
-  if (++interrupt_count > 1) {
+  interrupt_count = interrupt_count + 1;
+  if (interrupt_count > 1) {
     std::signal(SIGINT, SIG_DFL);
     std::raise(SIGINT);
   }
