@@ -1,0 +1,19 @@
+#pragma once
+// Where every particle starts in space: panels are wrapped onto body parts, laid rigidly, or carried on from the panels
+// they are sewn to.
+#include <vector>
+
+#include "runtime/base/finding.hpp"
+#include "runtime/body/body.hpp"
+#include "runtime/design/garment.hpp"
+#include "runtime/model/model.hpp"
+
+namespace garment::modeller {
+
+/// Fills `model.start` [n_particles] from the flat positions (`vertex_uv`) and the placements of `garment.panels`, which
+/// stand in the order of `model.panels`. A particle that several panels share starts at the mean of its places. Wraps
+/// keep lengths within 1 %. Returns false, with findings that name the panel, where no place could be found.
+bool place_panels(const design::Garment& garment, const std::vector<body::Body>& bodies, model::Model& model,
+                  Findings& findings);
+
+}  // namespace garment::modeller

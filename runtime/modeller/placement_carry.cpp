@@ -1,0 +1,104 @@
+#include "runtime/modeller/placement_carry.hpp"
+
+#include <Eigen/Dense>
+#include <map>
+#include <optional>
+
+namespace garment::modeller {
+namespace {
+
+using Eigen::Matrix2d;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using model::Index;
+using Matrix32 = Eigen::Matrix<double, 3, 2>;
+
+/// A particle that both the new panel and a placed one hold, seen from both.
+struct Shared {
+  Index here, there;  ///< vertex ids in the new and in the placed panel
+};
+
+std::vector<Shared> shared_vertices(const model::Model& model, std::size_t panel, const std::vector<bool>& placed) {
+  std::map<Index, Index> placed_vertex;
+  for (std::size_t v = 0; v < model.n_vertices(); ++v)
+    if (placed[model.vertex_panel[v]]) placed_vertex.try_emplace(model.vertex_particle[v], static_cast<Index>(v));
+  std::vector<Shared> shared;
+  const model::PanelRange& range = model.panels[panel];
+  for (Index v = range.first_vertex; v < range.first_vertex + range.n_vertices; ++v)
+    if (auto it = placed_vertex.find(model.vertex_particle[v]); it != placed_vertex.end()) shared.push_back({v, it->second});
+  return shared;
+}
+
+/// Mean gradient of place over uv in the triangles round each vertex of the placed panels.
+std::map<Index, Matrix32> gradients_at(const model::Model& model, const std::vector<Shared>& shared,
+                                       const std::vector<Vector3d>& place) {
+  std::map<Index, Matrix32> sum;
+  for (const Shared& s : shared) sum.emplace(s.there, Matrix32::Zero());
+  for (const auto& t : model.triangle) {
+    Matrix2d flat;
+    Matrix32 space;
+    flat << model.vertex_uv[t[1]] - model.vertex_uv[t[0]], model.vertex_uv[t[2]] - model.vertex_uv[t[0]];
+    space << place[t[1]] - place[t[0]], place[t[2]] - place[t[0]];
+    double area = flat.determinant();
+    if (area <= 0) continue;
+    Matrix32 gradient = space * flat.inverse() * area;
+    for (Index v : t)
+      if (auto it = sum.find(v); it != sum.end()) it->second += gradient;
+  }
+  for (auto& [v, g] : sum) {  // nearest frame with unit, square columns
+    Vector3d a = g.col(0), b = g.col(1);
+    if (a.norm() < 1e-12 || b.norm() < 1e-12) continue;
+    a.normalize();
+    b = (b - b.dot(a) * a);
+    if (b.norm() < 1e-12) continue;
+    g.col(0) = a;
+    g.col(1) = b.normalized();
+  }
+  return sum;
+}
+
+/// Rotation of the plane that turns direction a into direction b.
+Matrix2d rotation_between(const Vector2d& a, const Vector2d& b) {
+  Vector2d p = a.normalized(), q = b.normalized();
+  double c = p.dot(q), s = p.x() * q.y() - p.y() * q.x();
+  Matrix2d r;
+  r << c, -s, s, c;
+  return r;
+}
+
+}  // namespace
+
+std::size_t count_shared_particles(const model::Model& model, std::size_t panel, const std::vector<bool>& placed) {
+  return shared_vertices(model, panel, placed).size();
+}
+
+void carry_panel(const model::Model& model, std::size_t panel, const std::vector<bool>& placed,
+                 std::vector<Vector3d>& place) {
+  std::vector<Shared> shared = shared_vertices(model, panel, placed);
+  std::map<Index, Matrix32> gradient = gradients_at(model, shared, place);
+  // The seam's direction at each shared particle, from the nearest other shared particle of the same placed panel.
+  std::vector<Matrix2d> turn(shared.size(), Matrix2d::Identity());
+  for (std::size_t i = 0; i < shared.size(); ++i) {
+    double nearest = 1e300;
+    for (std::size_t j = 0; j < shared.size(); ++j) {
+      if (j == i || model.vertex_panel[shared[j].there] != model.vertex_panel[shared[i].there]) continue;
+      Vector2d here = model.vertex_uv[shared[j].here] - model.vertex_uv[shared[i].here];
+      Vector2d there = model.vertex_uv[shared[j].there] - model.vertex_uv[shared[i].there];
+      if (here.norm() >= nearest || here.norm() < 1e-9 || there.norm() < 1e-9) continue;
+      nearest = here.norm();
+      turn[i] = rotation_between(here, there);
+    }
+  }
+  const model::PanelRange& range = model.panels[panel];
+  for (Index v = range.first_vertex; v < range.first_vertex + range.n_vertices; ++v) {
+    std::size_t best = 0;
+    for (std::size_t i = 1; i < shared.size(); ++i)
+      if ((model.vertex_uv[v] - model.vertex_uv[shared[i].here]).squaredNorm() <
+          (model.vertex_uv[v] - model.vertex_uv[shared[best].here]).squaredNorm())
+        best = i;
+    Vector2d off = turn[best] * (model.vertex_uv[v] - model.vertex_uv[shared[best].here]);
+    place[v] = place[shared[best].there] + gradient[shared[best].there] * off;
+  }
+}
+
+}  // namespace garment::modeller
