@@ -17,8 +17,8 @@ struct Quadratic {
 struct Cubic {
   Point2 control_1, control_2;
 };
-/// Circular arc. `bulge` is the signed sagitta in metres, positive to the left of the way walked; |bulge| may exceed half
-/// the chord (then it is the large arc). Zero is a straight line.
+/// Circular arc. `bulge` is the signed sagitta in metres, positive to the left of the way walked; |bulge| may
+/// exceed half the chord (then it is the large arc). Zero is a straight line.
 struct Arc {
   double bulge = 0;
 };
@@ -27,7 +27,8 @@ struct Through {
   std::vector<Point2> points;
 };
 
-/// A curve from `start` to `end`, metres. Value type; the arc-length table is made at construction, so it is cheap to ask.
+/// A curve from `start` to `end`, metres. Value type; the arc-length table is made at construction, so it is
+/// cheap to ask.
 class Curve {
  public:
   using Shape = std::variant<Line, Quadratic, Cubic, Arc, Through>;
@@ -44,17 +45,19 @@ class Curve {
   Point2 point_at(double s) const;
   /// Unit tangent at arc length `s`, in the direction walked.
   Point2 tangent_at(double s) const;
-  /// 1/2 of the integral of (x dy - y dx): by Green's theorem a closed loop of curves adds up to its exact signed area.
+  /// 1/2 of the integral of (x dy - y dx): by Green's theorem a closed loop of curves adds up to its exact
+  /// signed area.
   double area_term() const;
   /// Integral over the region swept from the origin, first moments: closed loops add up to area * centroid.
   Point2 moment_term() const;
 
   Curve reversed() const;
-  Curve mirrored_x(double axis_x) const;                       ///< x -> 2 axis_x - x
+  Curve mirrored_x(double axis_x) const;  ///< x -> 2 axis_x - x
   Curve transformed(const Eigen::Isometry2d& motion) const;
-  Curve scaled(double factor) const;                           ///< about the origin
+  Curve scaled(double factor) const;  ///< about the origin
 
-  /// Polyline with chord error at most `tolerance` metres, both ends included; `at` receives the arc length of each point.
+  /// Polyline with chord error at most `tolerance` metres, both ends included; `at` receives the arc length
+  /// of each point.
   std::vector<Point2> polyline(double tolerance, std::vector<double>* at = nullptr) const;
   /// Arc length of the nearest point on the curve.
   double nearest(const Point2& p) const;
@@ -62,16 +65,29 @@ class Curve {
   std::vector<double> crossings(const Point2& normal, double offset) const;
 
  private:
+  /// A piece of the curve over t in [0, 1]: a cubic Bezier, or a circular arc (a straight line is one with
+  /// half = 0).
+  struct Piece {
+    Point2 p[4];  // an arc uses p[0] and p[3] only
+    bool bezier = false;
+    double half = 0;  // half the angle an arc turns by; positive where the arc lies to the left of its chord
+    Point2 point(double t) const;
+    Point2 derivative(double t) const;
+    Point2 direction(double t) const;  // unit, also where the derivative vanishes
+    double arc_length() const;         // of an arc
+  };
+  void add_through(const std::vector<Point2>& interior);
+  void add_bezier(const Point2& p0, const Point2& p1, const Point2& p2, const Point2& p3);
+  void add_table(std::size_t piece, double t0, double t1, double whole, double scale, int depth);
+  double length_to(double t) const;  // t in [0, number of pieces]
+  double parameter_at(double s) const;
+  template <class Map>
+  Curve mapped(const Map& map, double bulge_factor) const;
+
   Point2 start_{0, 0}, end_{0, 0};
   Shape shape_;
-  // pieces_ and the arc-length table: see curve.cpp
-  struct Piece {  // cubic Bezier, or an arc when radius > 0
-    Point2 p[4];
-    Point2 center;
-    double radius = 0, angle_0 = 0, sweep = 0;
-  };
-  std::vector<Piece> pieces_;
-  std::vector<double> table_s_, table_t_;  // t in [0, number of pieces]
+  std::vector<Piece> pieces_;              // none: a line of no length
+  std::vector<double> table_s_, table_t_;  // arc length at increasing t in [0, number of pieces]
 };
 
 }  // namespace garment::geometry
