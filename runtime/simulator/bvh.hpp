@@ -1,0 +1,98 @@
+#pragma once
+// Flat tree of axis-aligned boxes in single precision, rounded outwards: made for moving parts, refitted in
+// place.
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace garment::simulator {
+
+/// Box in single precision that surely contains what was put in.
+struct FloatBox {
+  std::array<float, 3> low{3e38f, 3e38f, 3e38f}, high{-3e38f, -3e38f, -3e38f};
+
+  void grow(const Eigen::Vector3d& p) {
+    for (int k = 0; k < 3; ++k) {
+      const auto f = static_cast<float>(p[k]);
+      const float pad = 1.3e-7f * std::fabs(f) + 1e-12f;  // more than the rounding of the conversion
+      low[k] = std::min(low[k], f - pad);
+      high[k] = std::max(high[k], f + pad);
+    }
+  }
+  void grow(const FloatBox& b) {
+    for (int k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], b.low[k]);
+      high[k] = std::max(high[k], b.high[k]);
+    }
+  }
+  /// Larger by r on all sides.
+  FloatBox inflated(double r) const {
+    FloatBox out = *this;
+    for (int k = 0; k < 3; ++k) {
+      const float pad = static_cast<float>(r) * 1.000001f;
+      out.low[k] -= pad + 1.3e-7f * (std::fabs(out.low[k]) + pad);
+      out.high[k] += pad + 1.3e-7f * (std::fabs(out.high[k]) + pad);
+    }
+    return out;
+  }
+  bool meets(const FloatBox& b) const {
+    return (low[0] <= b.high[0]) & (b.low[0] <= high[0]) & (low[1] <= b.high[1]) & (b.low[1] <= high[1]) &
+           (low[2] <= b.high[2]) & (b.low[2] <= high[2]);
+  }
+};
+
+/// Median-split tree over n boxes, stored depth first: the child of a node follows it, `skip` leads past its
+/// subtree. The tree depends on nothing but the boxes (ties go by number).
+class Bvh {
+ public:
+  static constexpr std::int32_t kLeafSize = 4;
+
+  /// Builds the tree over items 0 .. n-1.
+  void build(const std::vector<FloatBox>& boxes);
+  /// Takes new boxes for the same items. Returns the summed area of the nodes' boxes, over that after the
+  /// last build: a measure of how far the tree has decayed (1 fresh; build anew above about 1.5).
+  double refit(const std::vector<FloatBox>& boxes);
+
+  bool empty() const { return nodes_.empty(); }
+  std::size_t size() const { return order_.size(); }
+  /// Items in the order of the leaves: neighbours in space are neighbours in the list.
+  const std::vector<std::int32_t>& order() const { return order_; }
+  const FloatBox& bounds() const { return nodes_.front().box; }
+
+  /// Calls found(item) for every item whose box meets `box`, in the order of the leaves; subtrees that lie
+  /// before position `from` of that order are passed over.
+  template <class Found>
+  void query(const FloatBox& box, const Found& found, std::int32_t from = 0) const {
+    const auto n = static_cast<std::int32_t>(nodes_.size());
+    for (std::int32_t i = 0; i < n;) {
+      const Node& node = nodes_[i];
+      if (node.end <= from || !node.box.meets(box)) {
+        i = node.skip;
+        continue;
+      }
+      if (node.skip == i + 1)  // leaf
+        for (std::int32_t k = std::max(node.begin, from); k < node.end; ++k)
+          if (leaf_boxes_[k].meets(box)) found(order_[k]);
+      ++i;
+    }
+  }
+
+ private:
+  struct Node {
+    FloatBox box;
+    std::int32_t begin = 0, end = 0;  // positions in order_
+    std::int32_t skip = 0;            // the node after this subtree
+  };
+  void split(std::int32_t begin, std::int32_t end, const std::vector<FloatBox>& boxes);
+  double fit(const std::vector<FloatBox>& boxes);
+
+  std::vector<Node> nodes_;
+  std::vector<std::int32_t> order_;
+  std::vector<FloatBox> leaf_boxes_;  // in the order of the leaves
+  double fresh_area_ = 0;
+};
+
+}  // namespace garment::simulator

@@ -1,0 +1,67 @@
+#pragma once
+// Pairs that are near enough to matter: kept over several steps, until somebody has moved too far.
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "runtime/simulator/bvh.hpp"
+#include "runtime/simulator/contact_mesh.hpp"
+
+namespace garment::simulator {
+
+struct Tangle;
+
+/// Kinds of pairs, in the order in which they are listed. v a point, t a triangle, e an edge.
+enum class PairKind : std::uint8_t { cloth_vt, cloth_ee, cloth_v_body_t, body_v_cloth_t, cloth_e_body_e };
+inline constexpr std::size_t kPairKinds = 5;
+inline bool is_vt(PairKind k) { return k != PairKind::cloth_ee && k != PairKind::cloth_e_body_e; }
+inline bool is_body(PairKind k) { return k > PairKind::cloth_ee; }
+
+/// Two parts that do not share a point.
+struct Pair {
+  Index a = -1;                ///< point (VT) or edge (EE); with bodies the cloth's edge
+  Index b = -1;                ///< triangle (VT) or edge (EE)
+  float contact_distance = 0;  ///< m
+  float distance = 0;          ///< m, at the reference positions, rounded down
+};
+
+class Candidates {
+ public:
+  /// Lists all pairs closer than `radius` (m) at positions `x` [n_particles], which become the reference. The
+  /// order depends on nothing but the input. Forgets what was exempt.
+  void rebuild(const ContactMesh& mesh, const std::vector<Vector3d>& x, double radius);
+
+  /// True while no active contact can be missing: every particle within `slack()` of the reference.
+  bool valid(const std::vector<Vector3d>& x) const;
+  double slack() const { return slack_; }  ///< (radius - largest contact distance) / 2, m
+  double reach() const {
+    return reach_;
+  }  ///< no particle can leave the reference farther than this: truncate(), m
+  double radius() const { return radius_; }
+
+  /// Takes the pairs that cut each other now out of contact and truncation, and puts all others back.
+  void exempt(const ContactMesh& mesh, const Tangle& tangle);
+
+  const std::vector<Pair>& pairs() const { return pairs_; }
+  bool is_exempt(std::size_t pair) const { return !exempt_.empty() && exempt_[pair] != 0; }
+  std::size_t begin(PairKind k) const { return first_[static_cast<std::size_t>(k)]; }
+  std::size_t end(PairKind k) const { return first_[static_cast<std::size_t>(k) + 1]; }
+  const std::vector<Vector3d>& reference() const { return reference_; }
+
+ private:
+  std::vector<Pair> pairs_;
+  std::array<std::size_t, kPairKinds + 1> first_{};
+  std::vector<std::uint8_t> exempt_;  // empty: none
+  std::vector<Vector3d> reference_;
+  double radius_ = 0, slack_ = 0, reach_ = 0;
+  Bvh triangle_tree_, edge_tree_;  // of the cloth; refitted from rebuild to rebuild
+};
+
+/// Upper bounds of how far each part of the cloth has come from the reference, m: |x - x0| (+ |dx| if given).
+struct PartMotion {
+  std::vector<float> point, edge, triangle;  ///< cloth only
+};
+PartMotion motion_since(const ContactMesh& mesh, const Candidates& candidates, const std::vector<Vector3d>& x,
+                        const std::vector<Vector3d>* dx = nullptr);
+
+}  // namespace garment::simulator

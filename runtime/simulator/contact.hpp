@@ -1,0 +1,50 @@
+#pragma once
+// Contacts that act now, and the energy by which they repel.
+#include <vector>
+
+#include "runtime/simulator/candidates.hpp"
+#include "runtime/simulator/contact_mesh.hpp"
+
+namespace garment::simulator {
+
+/// One contact. Gap vector g = sum_k w[k] x(p[k]); distance d = |g|; normal n = g / d.
+///   energy              multiplicity * E(d)
+///   force on point k   -multiplicity * E'(d) w[k] n     (E' < 0: repulsion; bodies take no force)
+///   Hessian block k,l   multiplicity * E''(d) w[k] w[l] n nT   (SPD part)
+///
+/// multiplicity: a distance to a surface is smooth only if shared edges and corners are counted once, so
+/// parts that two triangles share are taken off again where both count (inclusion and exclusion; Li et al.
+/// 2023, Convergent incremental potential contact). It is 1 nearly always, -1 near concave edges and near the
+/// ends of edge-edge contacts: such a contact enters energy and force, and is left out of an SPD Hessian.
+struct Contact {
+  Indices<4> p{-1, -1, -1,
+               -1};           ///< points; VT: v, a, b, c; EE: a, b, c, d; -1 with w = 0 where fewer take part
+  std::array<double, 4> w{};  ///< sums to 0; positive side first
+  Vector3d normal{0, 0, 0};   ///< unit, from the second part towards the first
+  double distance = 0;        ///< m
+  double contact_distance = 0;  ///< m, > distance
+  double friction = 0;          ///< Coulomb: geometric mean of both sides
+  double multiplicity = 1;
+  bool body = false;  ///< one side is a body (its points have ids >= n_particles)
+  Index pair = -1;    ///< in Candidates::pairs()
+};
+
+/// All contacts with distance < contact distance among the pairs that are not exempt; sorted by pair.
+/// Complete while `candidates.valid(x)`. Same result for any thread count. Overwrites `out`, keeps its
+/// memory.
+void active_contacts(const ContactMesh& mesh, const Candidates& candidates, const std::vector<Vector3d>& x,
+                     std::vector<Contact>& out);
+
+/// Contact energy E and derivatives at distance d for contact distance r and stiffness k (N/m):
+///   r/2 <= d < r   k/2 (r - d)^2
+///   0 < d < r/2    k r^2/8 + k r^2/4 ln(r / (2 d))
+/// twice differentiable at r/2, once at r; infinite at 0. d is held above 1e-9 m. Source: Chen et al. 2025,
+/// Offset geometric contact, eq. 18 with the switch at r/2.
+struct ContactEnergy {
+  double value = 0;   ///< J
+  double first = 0;   ///< dE/dd, N, <= 0
+  double second = 0;  ///< d2E/dd2, N/m, >= 0
+};
+ContactEnergy contact_energy(double distance, double contact_distance, double stiffness);
+
+}  // namespace garment::simulator
