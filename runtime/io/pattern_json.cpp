@@ -143,15 +143,12 @@ class PatternReader {
                                                : "its space: y = 0 is the pelvis of a body in T-pose");
   }
 
-  /// Only the newer writer states `normalized_edge_loops`; only the older one writes curves as plain pairs.
+  /// Only the older format writes curves as plain pairs, only the newer one as objects with a `type`.
   static std::optional<PatternFrame> stated_frame(const json& root) {
-    const json* properties = member(root, "properties");
-    if (properties && member(*properties, "normalized_edge_loops")) return PatternFrame::floor;
     for (const json& panel : root.at("pattern").at("panels"))
-      if (const json* edges = member(panel, "edges"))
-        for (const json& edge : *edges)
-          if (const json* curvature = member(edge, "curvature"); curvature && curvature->is_array())
-            return PatternFrame::pelvis;
+      for (const json& edge : panel.at("edges"))
+        if (const json* curvature = member(edge, "curvature"); curvature && !curvature->is_null())
+          return curvature->is_array() ? PatternFrame::pelvis : PatternFrame::floor;
     return std::nullopt;
   }
 
