@@ -1,0 +1,88 @@
+#include "runtime/simulator/friction.hpp"
+
+#include <cmath>
+
+namespace garment::simulator {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+void BodyFriction::begin_step() {
+  for (Touch& t : touch_) {
+    t.sum.setZero();
+    t.weighted_mu = t.total = 0;
+  }
+}
+
+void BodyFriction::add_normal_force(std::size_t i, const Vector3d& force, double mu) {
+  Touch& t = touch_[i];
+  double size = force.norm();
+  t.sum += force;
+  t.weighted_mu += mu * size;
+  t.total += size;
+}
+
+void BodyFriction::freeze(const std::vector<Vector3d>& x) {
+  active_.clear();
+  for (std::size_t i = 0; i < touch_.size(); ++i) {
+    Touch& t = touch_[i];
+    double n = t.sum.norm();
+    if (n <= 0 || t.total <= 0) {
+      t.anchored = false;
+      continue;
+    }
+    t.normal = t.sum / n;
+    t.limit = n * t.weighted_mu / t.total;
+    if (!t.anchored) t.anchor = x[i];
+    t.anchored = true;
+    active_.push_back(static_cast<std::uint32_t>(i));
+  }
+}
+
+double BodyFriction::energy(const std::vector<Vector3d>& x) const {
+  double sum = 0;
+  for (std::uint32_t i : active_) {
+    const Touch& t = touch_[i];
+    double u = slip(t, x[i]).norm(), sticking = t.limit / stiffness_;
+    sum += u <= sticking ? stiffness_ / 2 * u * u : t.limit * (u - sticking / 2);
+  }
+  return sum;
+}
+
+void BodyFriction::add_force(const std::vector<Vector3d>& x, std::vector<Vector3d>& force, BlockMatrix* matrix) const {
+  for (std::uint32_t i : active_) {
+    const Touch& t = touch_[i];
+    Vector3d u = slip(t, x[i]);
+    double size = u.norm();
+    double stiffness = stiffness_ * size <= t.limit ? stiffness_ : t.limit / size;
+    force[i] -= stiffness * u;
+    if (matrix) matrix->add_diagonal(i, Matrix3d(stiffness * (Matrix3d::Identity() - t.normal * t.normal.transpose())));
+  }
+}
+
+void BodyFriction::absorb(std::vector<Vector3d>& force) const {
+  for (std::uint32_t i : active_) {
+    const Touch& t = touch_[i];
+    Vector3d normal = force[i].dot(t.normal) * t.normal;
+    Vector3d tangential = force[i] - normal;
+    double size = tangential.norm();
+    force[i] = normal + tangential * (size > t.limit ? 1 - t.limit / size : 0.0);
+  }
+}
+
+void BodyFriction::follow(const std::vector<Vector3d>& x) {
+  for (std::uint32_t i : active_) {
+    Touch& t = touch_[i];
+    Vector3d u = slip(t, x[i]);
+    double size = u.norm();
+    if (stiffness_ * size <= t.limit) continue;
+    t.anchor = x[i] - u * (t.limit / stiffness_ / size);
+  }
+}
+
+void BodyFriction::clear() {
+  for (Touch& t : touch_) t.anchored = false;
+  active_.clear();
+}
+
+}  // namespace garment::simulator

@@ -1,0 +1,51 @@
+#pragma once
+// Coulomb friction between particles and bodies, quasi-static: every touching particle is tied to an anchor by a stiff
+// spring that slips when it carries more than mu N (return mapping; design "physics", section 2: a velocity
+// regularisation would creep).
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "runtime/simulator/block_matrix.hpp"
+
+namespace garment::simulator {
+
+class BodyFriction {
+ public:
+  BodyFriction(std::size_t n_particles, double stiffness) : stiffness_(stiffness), touch_(n_particles) {}
+
+  /// Begins a step: forgets the normal forces; `add_normal_force` collects them anew.
+  void begin_step();
+  /// Particle i is pressed by `force` (N, along the outward normal of the body) with friction coefficient mu.
+  void add_normal_force(std::size_t i, const Eigen::Vector3d& force, double mu);
+  /// Fixes normals and slip limits for the coming step; particles that touch for the first time anchor at x.
+  void freeze(const std::vector<Eigen::Vector3d>& x);
+
+  double energy(const std::vector<Eigen::Vector3d>& x) const;
+  /// Adds the friction force at x, and the stiffness to the matrix when one is given.
+  void add_force(const std::vector<Eigen::Vector3d>& x, std::vector<Eigen::Vector3d>& force, BlockMatrix* matrix) const;
+  /// Takes from `force` what friction can bear: at every touching particle the tangential part shrinks by up to mu N.
+  /// What is left is what moves the cloth, whatever path it came by.
+  void absorb(std::vector<Eigen::Vector3d>& force) const;
+  /// Lets the anchors of slipping particles follow (after an accepted step).
+  void follow(const std::vector<Eigen::Vector3d>& x);
+  /// Forgets all anchors.
+  void clear();
+  const std::vector<std::uint32_t>& touching() const { return active_; }
+
+ private:
+  struct Touch {
+    Eigen::Vector3d anchor{0, 0, 0}, sum{0, 0, 0}, normal{0, 0, 0};
+    double weighted_mu = 0, total = 0, limit = 0;  // limit = mu N
+    bool anchored = false;
+  };
+  Eigen::Vector3d slip(const Touch& t, const Eigen::Vector3d& x) const {
+    Eigen::Vector3d u = x - t.anchor;
+    return u - u.dot(t.normal) * t.normal;
+  }
+  double stiffness_;
+  std::vector<Touch> touch_;
+  std::vector<std::uint32_t> active_;
+};
+
+}  // namespace garment::simulator

@@ -1,0 +1,73 @@
+#include "runtime/simulator/linear_solver.hpp"
+
+#include <cmath>
+
+namespace garment::simulator {
+namespace {
+
+using Vectors = std::vector<Eigen::Vector3f>;
+
+double dot(const Vectors& a, const Vectors& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    sum += static_cast<double>(a[i].x()) * b[i].x() + static_cast<double>(a[i].y()) * b[i].y() +
+           static_cast<double>(a[i].z()) * b[i].z();
+  return sum;
+}
+
+}  // namespace
+
+/// Ap_ = A p_ with the contacts; returns p_ . Ap_.
+double LinearSolver::multiply(const BlockMatrix& matrix, const std::vector<ContactStiffness>& contacts) {
+  double sum = matrix.multiply_and_dot(p_, Ap_);
+  for (const ContactStiffness& c : contacts) {
+    float along = 0;
+    for (int k = 0; k < 4; ++k)
+      if (c.particle[k] >= 0) along += c.weight[k] * c.normal.dot(p_[c.particle[k]]);
+    for (int k = 0; k < 4; ++k) {
+      if (c.particle[k] < 0) continue;
+      // The contact's own diagonal block is in the matrix already: take it off again.
+      float own = c.weight[k] * c.normal.dot(p_[c.particle[k]]);
+      float scale = c.stiffness * c.weight[k] * (along - own);
+      Ap_[c.particle[k]] += scale * c.normal;
+      sum += static_cast<double>(scale) * c.normal.dot(p_[c.particle[k]]);
+    }
+  }
+  holds_.filter(Ap_);
+  return sum;
+}
+
+LinearResult LinearSolver::solve(const BlockMatrix& matrix, const std::vector<ContactStiffness>& contacts,
+                                 const std::vector<Eigen::Vector3d>& b, double tolerance, int max_iterations,
+                                 std::vector<Eigen::Vector3d>& x) {
+  std::size_t n = b.size();
+  preconditioner_.factor(matrix);
+  r_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) r_[i] = holds_.filtered(i, b[i]).cast<float>();
+  x_.assign(n, Eigen::Vector3f::Zero());
+  preconditioner_.apply(r_, z_);
+  p_ = z_;
+  double rz = dot(r_, z_), start = rz;
+  LinearResult result;
+  while (result.iterations < max_iterations && rz > tolerance * tolerance * start && rz > 0) {
+    double pAp = multiply(matrix, contacts);
+    if (!(pAp > 0)) break;
+    auto alpha = static_cast<float>(rz / pAp);
+    for (std::size_t i = 0; i < n; ++i) {
+      x_[i] += alpha * p_[i];
+      r_[i] -= alpha * Ap_[i];
+    }
+    preconditioner_.apply(r_, z_);
+    double next = dot(r_, z_);
+    auto beta = static_cast<float>(next / rz);
+    rz = next;
+    for (std::size_t i = 0; i < n; ++i) p_[i] = z_[i] + beta * p_[i];
+    ++result.iterations;
+  }
+  result.reduction = start > 0 ? std::sqrt(std::max(rz, 0.0) / start) : 0;
+  x.resize(n);
+  for (std::size_t i = 0; i < n; ++i) x[i] = x_[i].cast<double>();
+  return result;
+}
+
+}  // namespace garment::simulator

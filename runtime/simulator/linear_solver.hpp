@@ -1,0 +1,44 @@
+#pragma once
+// Preconditioned conjugate gradients on the elastic matrix plus contacts, restricted to what the holds leave free.
+#include <Eigen/Core>
+#include <vector>
+
+#include "runtime/simulator/block_matrix.hpp"
+#include "runtime/simulator/holds.hpp"
+#include "runtime/simulator/preconditioner.hpp"
+
+namespace garment::simulator {
+
+/// The second derivative of one contact's energy: stiffness * g gT with g = (w_0 n, ..., w_3 n). Kept apart from the
+/// matrix because contacts come and go. Particles with id -1 do not move (they belong to a body).
+struct ContactStiffness {
+  model::Index particle[4];
+  float weight[4];
+  Eigen::Vector3f normal;
+  float stiffness = 0;  ///< N/m
+};
+
+struct LinearResult {
+  int iterations = 0;
+  double reduction = 1;  ///< |residual| / |right-hand side| in the preconditioner's norm
+};
+
+class LinearSolver {
+ public:
+  LinearSolver(const BlockPattern& pattern, const Holds& holds) : holds_(holds), preconditioner_(pattern, holds) {}
+
+  /// Solves (matrix + contacts) x = b. The diagonal blocks of the contacts must already be added to `matrix`, their
+  /// off-diagonal part is applied from `contacts`. Stops at `tolerance` or `max_iterations`. x starts at zero.
+  LinearResult solve(const BlockMatrix& matrix, const std::vector<ContactStiffness>& contacts,
+                     const std::vector<Eigen::Vector3d>& b, double tolerance, int max_iterations,
+                     std::vector<Eigen::Vector3d>& x);
+
+ private:
+  double multiply(const BlockMatrix& matrix, const std::vector<ContactStiffness>& contacts);
+
+  const Holds& holds_;
+  Preconditioner preconditioner_;
+  std::vector<Eigen::Vector3f> r_, z_, p_, Ap_, x_;
+};
+
+}  // namespace garment::simulator

@@ -1,0 +1,285 @@
+#include "runtime/simulator/relaxation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/base/parallel.hpp"
+#include "runtime/simulator/truncate.hpp"
+
+namespace garment::simulator {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using Vectors = std::vector<Vector3d>;
+
+constexpr double kLargestTimeStep = 2.0;   // s
+constexpr double kSmallestTimeStep = 1e-3; // s
+constexpr double kLinearTolerance = 1e-2;
+constexpr int kLinearIterations = 200;
+constexpr double kHoldSpeed = 5e-3;        // m per step towards a hold's place
+constexpr double kBodySearch = 0.25;       // m, how deep inside a body a particle may start
+
+const std::vector<body::Body>& no_bodies() {
+  static const std::vector<body::Body> none;
+  return none;
+}
+
+/// Mean length of the triangles' edges in the flat pattern, m (in space the start may be stretched).
+double mean_edge(const model::Model& model) {
+  double sum = 0;
+  std::size_t n = 0;
+  for (const auto& t : model.triangle)
+    for (int k = 0; k < 3; ++k, ++n) sum += (model.vertex_uv[t[k]] - model.vertex_uv[t[(k + 1) % 3]]).norm();
+  return n ? sum / static_cast<double>(n) : 0.01;
+}
+
+double largest(const Vectors& v) {
+  double best = 0;
+  for (const Vector3d& d : v) best = std::max(best, d.squaredNorm());
+  return std::sqrt(best);
+}
+
+}  // namespace
+
+Relaxation::Relaxation(const model::Model& model, const std::vector<body::Body>& bodies,
+                       const RelaxationSettings& settings)
+    : model_(model),
+      bodies_(bodies),
+      settings_(settings),
+      elastic_(model),
+      holds_(model),
+      matrix_(elastic_.make_matrix()),
+      linear_(matrix_.pattern(), holds_),
+      mesh_(model, settings.bodies_are_walls ? bodies : no_bodies(),
+            ContactOptions{settings.self_collision, settings.self_offset, settings.body_offset}),
+      friction_(model.n_particles(), settings.contact_stiffness),
+      extra_offset_(model.n_particles(), 0) {
+  spacing_ = mean_edge(model);
+  recent_motion_ = spacing_ / 2;
+  double sum = 0;
+  for (double m : model.mass) sum += m * m * model.gravity.squaredNorm();
+  rms_weight_ = std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, model.n_particles())));
+}
+
+void Relaxation::set_tangle(Tangle tangle) {
+  tangle_ = std::move(tangle);
+  if (have_candidates_) candidates_.exempt(mesh_, tangle_);
+}
+
+void Relaxation::refresh_candidates(const Vectors& x) {
+  if (have_candidates_ && candidates_.valid(x)) return;
+  // Far enough for some steps of the present size, near enough to keep the list short.
+  double room = std::clamp(6 * recent_motion_, 0.15 * spacing_, 1.2 * spacing_);
+  candidates_.rebuild(mesh_, x, mesh_.largest_contact_distance + room);
+  have_candidates_ = true;
+  if (!tangle_.empty()) {
+    tangle_ = find_tangle(mesh_, settings_.bodies_are_walls ? bodies_ : no_bodies(), x);
+    candidates_.exempt(mesh_, tangle_);
+  }
+}
+
+void Relaxation::find_pushes(const Vectors& x) {
+  pushes_.clear();
+  if (settings_.bodies_are_walls) return;
+  for (const body::Body& body : bodies_) {
+    std::vector<Push> found(x.size());
+    parallel_for(x.size(), 256, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        double offset = settings_.body_offset + extra_offset_[i] + mesh_.half_thickness[i];
+        found[i].offset = 0;
+        auto hit = body.closest(x[i], kBodySearch);
+        if (!hit || hit->distance >= 2 * offset) continue;
+        Vector3d normal = hit->normal;
+        double gap = (x[i] - hit->point).norm();
+        if (gap > 1e-6) normal = (x[i] - hit->point) / (hit->distance < 0 ? -gap : gap);
+        found[i] = {i, normal, normal.dot(hit->point), offset};
+      }
+    });
+    for (const Push& p : found)
+      if (p.offset > 0) pushes_.push_back(p);
+  }
+}
+
+void Relaxation::find_contacts(const Vectors& x, std::vector<Contact>& contacts) const {
+  active_contacts(mesh_, candidates_, x, contacts);
+}
+
+double Relaxation::contact_energy_sum(const std::vector<Contact>& contacts) const {
+  return parallel_sum(contacts.size(), 512, 0.0, [&](std::size_t begin, std::size_t end) {
+    double sum = 0;
+    for (std::size_t k = begin; k < end; ++k)
+      sum += contacts[k].multiplicity *
+             contact_energy(contacts[k].distance, contacts[k].contact_distance, settings_.contact_stiffness).value;
+    return sum;
+  });
+}
+
+double Relaxation::push_energy(const Vectors& x) const {
+  double sum = 0;
+  for (const Push& p : pushes_) {
+    double depth = p.offset - (p.normal.dot(x[p.particle]) - p.plane);
+    if (depth > 0) sum += settings_.contact_stiffness / 2 * depth * depth;
+  }
+  return sum;
+}
+
+double Relaxation::gravity_energy(const Vectors& x) const {
+  Vector3d g = settings_.gravity_scale * model_.gravity;
+  return parallel_sum(x.size(), 4096, 0.0, [&](std::size_t begin, std::size_t end) {
+    double sum = 0;
+    for (std::size_t i = begin; i < end; ++i) sum -= model_.mass[i] * g.dot(x[i]);
+    return sum;
+  });
+}
+
+double Relaxation::energy(const Vectors& x) const { return elastic_.energy(x) + gravity_energy(x); }
+
+double Relaxation::total_energy(const Vectors& x, std::vector<Contact>& contacts) const {
+  find_contacts(x, contacts);
+  return energy(x) + contact_energy_sum(contacts) + push_energy(x) + friction_.energy(x);
+}
+
+/// Contact forces at x (from contacts_), and with `with_stiffness` their second derivatives.
+void Relaxation::add_contacts(const Vectors& x, Vectors& force, bool with_stiffness) {
+  if (with_stiffness) stiffness_.clear();
+  const Index n = mesh_.n_particles;
+  for (const Contact& c : contacts_) {
+    ContactEnergy e = contact_energy(c.distance, c.contact_distance, settings_.contact_stiffness);
+    bool stiff = with_stiffness && c.multiplicity > 0;
+    ContactStiffness s{{-1, -1, -1, -1}, {0, 0, 0, 0}, c.normal.cast<float>(), 0};
+    if (stiff) s.stiffness = static_cast<float>(c.multiplicity * e.second);
+    for (int k = 0; k < 4; ++k) {
+      if (c.p[k] < 0 || c.p[k] >= n || c.w[k] == 0) continue;
+      force[c.p[k]] -= c.multiplicity * e.first * c.w[k] * c.normal;
+      if (!stiff) continue;
+      s.particle[k] = c.p[k];
+      s.weight[k] = static_cast<float>(c.w[k]);
+      matrix_.add_diagonal(static_cast<std::size_t>(c.p[k]),
+                           Matrix3d(c.multiplicity * e.second * c.w[k] * c.w[k] * c.normal * c.normal.transpose()));
+    }
+    if (stiff) stiffness_.push_back(s);
+  }
+  for (const Push& p : pushes_) {
+    double depth = p.offset - (p.normal.dot(x[p.particle]) - p.plane);
+    if (depth <= 0) continue;
+    force[p.particle] += settings_.contact_stiffness * depth * p.normal;
+    if (with_stiffness)
+      matrix_.add_diagonal(p.particle, Matrix3d(settings_.contact_stiffness * p.normal * p.normal.transpose()));
+  }
+}
+
+void Relaxation::collect_normal_forces(const Vectors& x) {
+  friction_.begin_step();
+  for (const Contact& c : contacts_) {
+    if (!c.body || c.multiplicity < 0) continue;
+    ContactEnergy e = contact_energy(c.distance, c.contact_distance, settings_.contact_stiffness);
+    for (int k = 0; k < 4; ++k)
+      if (c.p[k] >= 0 && c.p[k] < mesh_.n_particles && c.w[k] != 0)
+        friction_.add_normal_force(static_cast<std::size_t>(c.p[k]), -e.first * c.w[k] * c.normal, c.friction);
+  }
+  friction_.freeze(x);
+}
+
+void Relaxation::add_external_forces(const Vectors& x, Vectors& force) {
+  Vector3d g = settings_.gravity_scale * model_.gravity;
+  for (std::size_t i = 0; i < x.size(); ++i) force[i] += model_.mass[i] * g;
+}
+
+double Relaxation::rms_over_weight(const Vectors& force) const {
+  double sum = 0;
+  for (const Vector3d& f : force) sum += f.squaredNorm();
+  double rms = std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, force.size())));
+  return rms_weight_ > 0 ? rms / rms_weight_ : rms;
+}
+
+double Relaxation::residual(const Vectors& x, Vectors& force) {
+  refresh_candidates(x);
+  find_pushes(x);
+  find_contacts(x, contacts_);
+  elastic_.energy_and_force(x, force);
+  add_external_forces(x, force);
+  collect_normal_forces(x);
+  add_contacts(x, force, false);
+  friction_.absorb(force);
+  holds_.filter(force);
+  return rms_over_weight(force);
+}
+
+/// Displaces held particles towards the place of their holds; true when any had to move.
+bool Relaxation::move_held(const Vectors& x, Vectors& dx) const {
+  bool moved = false;
+  for (std::size_t h = 0; h < model_.hold_particle.size(); ++h) {
+    auto i = static_cast<std::size_t>(model_.hold_particle[h]);
+    Vector3d off = holds_.error(model_, h, x[i]);
+    double size = off.norm();
+    if (size < 1e-9) continue;
+    dx[i] += size > kHoldSpeed ? Vector3d(off * (kHoldSpeed / size)) : off;
+    moved = moved || size > 1e-5;
+  }
+  return moved;
+}
+
+StepReport Relaxation::step(Vectors& x) {
+  StepReport report;
+  refresh_candidates(x);
+  find_pushes(x);
+  find_contacts(x, contacts_);
+  report.contacts = contacts_.size();
+
+  double elastic = elastic_.energy_force_hessian(x, force_, matrix_);
+  add_external_forces(x, force_);
+  collect_normal_forces(x);
+  add_contacts(x, force_, true);
+  friction_.add_force(x, force_, &matrix_);
+  holds_.filter(force_);
+  report.residual = rms_over_weight(force_);
+  report.energy = elastic + gravity_energy(x);
+  double before = report.energy + contact_energy_sum(contacts_) + push_energy(x) + friction_.energy(x);
+
+  for (std::size_t i = 0; i < x.size(); ++i) matrix_.add_diagonal(i, model_.mass[i] / (time_step_ * time_step_));
+  LinearResult linear = linear_.solve(matrix_, stiffness_, force_, kLinearTolerance, kLinearIterations, dx_);
+  report.linear_iterations = linear.iterations;
+  report.newton_step = largest(dx_);
+  report.time_step = time_step_;
+
+  double predicted = 0;  // decrease of the energy that the quadratic model promises, at least half of f . dx
+  for (std::size_t i = 0; i < x.size(); ++i) predicted += force_[i].dot(dx_[i]);
+  bool driven = move_held(x, dx_);
+  if (!tangle_.empty()) {
+    untangle_displacements(mesh_, settings_.bodies_are_walls ? bodies_ : no_bodies(), x, tangle_, untangle_);
+    for (std::size_t i = 0; i < x.size(); ++i) dx_[i] += holds_.filtered(i, untangle_[i]);
+    driven = true;
+  }
+  TruncateStats cut = truncate(mesh_, candidates_, x, dx_);
+
+  trial_.resize(x.size());
+  double scale = 1, after = 0;
+  for (int attempt = 0;; ++attempt, scale *= 0.5) {
+    for (std::size_t i = 0; i < x.size(); ++i) trial_[i] = x[i] + scale * dx_[i];
+    after = total_energy(trial_, trial_contacts_);
+    if (driven || !(after > before + 1e-10 * std::abs(before) + 1e-12)) break;
+    if (attempt == 4) {
+      report.accepted = false;
+      break;
+    }
+  }
+  if (!report.accepted || !std::isfinite(after)) {
+    report.accepted = false;
+    time_step_ = std::max(kSmallestTimeStep, time_step_ / 4);
+    return report;
+  }
+  report.largest_motion = scale * largest(dx_);
+  recent_motion_ = std::max(report.largest_motion, 0.7 * recent_motion_);
+  x.swap(trial_);
+  friction_.follow(x);
+  if (cut.out_of_reach > 0) have_candidates_ = false;
+  double gain = before - after;
+  if (scale < 1 || gain < 0.1 * predicted)
+    time_step_ = std::max(kSmallestTimeStep, time_step_ * (scale < 0.5 ? 0.4 : 0.8));
+  else if (gain > 0.3 * predicted)
+    time_step_ = std::min(kLargestTimeStep, time_step_ * 1.5);
+  return report;
+}
+
+}  // namespace garment::simulator

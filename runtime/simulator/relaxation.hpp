@@ -1,0 +1,108 @@
+#pragma once
+// One drape under way: inexact implicit steps towards the minimum of elastic, gravity and contact energy, none of which
+// starts an intersection (design "physics", sections 3.2 and 3.4).
+#include <Eigen/Core>
+#include <vector>
+
+#include "runtime/body/body.hpp"
+#include "runtime/model/model.hpp"
+#include "runtime/simulator/candidates.hpp"
+#include "runtime/simulator/contact.hpp"
+#include "runtime/simulator/contact_mesh.hpp"
+#include "runtime/simulator/elastic.hpp"
+#include "runtime/simulator/friction.hpp"
+#include "runtime/simulator/linear_solver.hpp"
+#include "runtime/simulator/untangle.hpp"
+
+namespace garment::simulator {
+
+struct RelaxationSettings {
+  bool self_collision = true;
+  /// true: body surfaces are walls that nothing passes; the start must be free of cloth inside a body.
+  /// false: bodies only push particles out along their surface normals (to get dressed).
+  bool bodies_are_walls = true;
+  double body_offset = 1.5e-3;      ///< m, distance at which a body begins to repel cloth
+  double self_offset = 0.6e-3;      ///< m, least contact distance of cloth with cloth
+  double contact_stiffness = 100;   ///< N/m
+  double gravity_scale = 1;
+};
+
+struct StepReport {
+  double residual = 0;       ///< RMS net force over RMS weight, before the step
+  double newton_step = 0;    ///< m, largest displacement that the linear system asked for
+  double largest_motion = 0; ///< m, largest displacement made
+  double time_step = 0;      ///< s, of the regularisation
+  double energy = 0;         ///< J
+  int linear_iterations = 0;
+  std::size_t contacts = 0;
+  bool accepted = true;
+};
+
+class Relaxation {
+ public:
+  Relaxation(const model::Model& model, const std::vector<body::Body>& bodies, const RelaxationSettings& settings);
+
+  /// One step from `x`; changes it. `x` is only ever moved along paths that start no intersection.
+  StepReport step(std::vector<Eigen::Vector3d>& x);
+
+  /// Net force on every particle at x, N: contacts included, what friction can bear and what holds carry taken out.
+  /// Returns the residual: RMS net force over RMS weight.
+  double residual(const std::vector<Eigen::Vector3d>& x, std::vector<Eigen::Vector3d>& force);
+
+  /// Elastic and gravity energy at x, J.
+  double energy(const std::vector<Eigen::Vector3d>& x) const;
+
+  void set_gravity_scale(double scale) { settings_.gravity_scale = scale; }
+  void set_tensile_scale(double scale) { elastic_.set_tensile_scale(scale); }
+  void set_time_step(double seconds) { time_step_ = seconds; }
+  /// Particles that are pushed farther out than `body_offset` while bodies are no walls, m [n_particles].
+  std::vector<double>& extra_offset() { return extra_offset_; }
+  const ContactMesh& mesh() const { return mesh_; }
+  /// Exempts what is tangled now from contacts and walls, and remembers to take it apart with every step.
+  void set_tangle(Tangle tangle);
+  const Tangle& tangle() const { return tangle_; }
+
+ private:
+  struct Push {  // a particle near a body that is no wall
+    std::size_t particle;
+    Eigen::Vector3d normal;
+    double plane;   // signed distance of x is normal . x - plane
+    double offset;
+  };
+  void refresh_candidates(const std::vector<Eigen::Vector3d>& x);
+  void find_pushes(const std::vector<Eigen::Vector3d>& x);
+  void find_contacts(const std::vector<Eigen::Vector3d>& x, std::vector<Contact>& contacts) const;
+  double contact_energy_sum(const std::vector<Contact>& contacts) const;
+  double push_energy(const std::vector<Eigen::Vector3d>& x) const;
+  double gravity_energy(const std::vector<Eigen::Vector3d>& x) const;
+  double total_energy(const std::vector<Eigen::Vector3d>& x, std::vector<Contact>& contacts) const;
+  void add_external_forces(const std::vector<Eigen::Vector3d>& x, std::vector<Eigen::Vector3d>& force);
+  void collect_normal_forces(const std::vector<Eigen::Vector3d>& x);
+  void add_contacts(const std::vector<Eigen::Vector3d>& x, std::vector<Eigen::Vector3d>& force, bool with_stiffness);
+  bool move_held(const std::vector<Eigen::Vector3d>& x, std::vector<Eigen::Vector3d>& dx) const;
+  double rms_over_weight(const std::vector<Eigen::Vector3d>& force) const;
+
+  const model::Model& model_;
+  const std::vector<body::Body>& bodies_;
+  RelaxationSettings settings_;
+  ElasticModel elastic_;
+  Holds holds_;
+  BlockMatrix matrix_;
+  LinearSolver linear_;
+  ContactMesh mesh_;
+  Candidates candidates_;
+  BodyFriction friction_;
+  Tangle tangle_;
+  bool have_candidates_ = false;
+  double spacing_ = 0.01;             // mean edge length, m
+  double recent_motion_ = 0.005;      // m, how far particles move in a step these days
+  double time_step_ = 1.0 / 60;
+  double rms_weight_ = 0;
+  std::vector<double> extra_offset_;
+  std::vector<Push> pushes_;
+  std::vector<Contact> contacts_, trial_contacts_;
+  std::vector<ContactStiffness> stiffness_;
+  std::vector<Eigen::Vector3d> force_, dx_, trial_, untangle_;
+};
+
+}  // namespace garment::simulator
