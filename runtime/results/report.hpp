@@ -1,0 +1,78 @@
+#pragma once
+// What a run found, as data: the command line fills a Report, report_json prints it.
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "runtime/results/measures.hpp"
+#include "runtime/results/strain.hpp"
+#include "runtime/simulator/drape.hpp"
+
+namespace garment::results {
+
+inline constexpr int kReportSchema = 1;
+
+/// A file that the result depends on, by the SHA-256 of its bytes.
+struct SourceHash {
+  std::string name;  ///< as the script says it, never an absolute path
+  std::string sha256;
+};
+
+struct ParameterValue {
+  std::string name;
+  std::string value;    ///< as printed by the language, "58 cm"
+  bool stated = false;  ///< given from outside rather than the script's default
+};
+
+/// One `expect` (or `measure`, which cannot fail and has no `expected`).
+struct ExpectOutcome {
+  std::string text;             ///< the statement as written
+  std::optional<double> value;  ///< SI; nothing when it could not be evaluated
+  std::string shown;            ///< the value as printed, with its unit
+  std::string expected;
+  bool passed = false;
+};
+
+struct PhaseTime {
+  std::string phase;  ///< "parse", "model", "drape", "write", ...
+  double seconds = 0;
+};
+
+struct OutputFile {
+  std::string name;
+  std::string sha256;
+  std::uint64_t bytes = 0;
+};
+
+struct Report {
+  std::string title;
+  std::string script;
+  std::vector<SourceHash> sources;  ///< the script and the files it reads
+  std::vector<SourceHash> library;  ///< of the standard library
+  std::vector<ParameterValue> parameters;
+  std::size_t particles = 0, triangles = 0;
+  simulator::Settle settle = simulator::Settle::equilibrium;
+  simulator::DrapeReport drape;
+  StrainReport strain;
+  Measures measures;
+  std::string state_hash;
+  std::vector<ExpectOutcome> expects;
+  std::vector<OutputFile> outputs;
+  std::vector<PhaseTime> phases;  ///< wall clock, s
+  std::uint64_t peak_memory = 0;  ///< bytes; 0 where unknown
+};
+
+/// Fills particles, triangles, strain, measures and state_hash.
+void fill_results(Report& report, const model::Model& model, const model::State& state,
+                  const std::vector<body::Body>& bodies);
+
+/// "at rest", "not settled", ... as the report and the command line say it.
+const char* status_name(simulator::DrapeStatus status);
+
+/// JSON text, two spaces of indent, keys in a fixed order, ending in a newline. SI units; strains as
+/// fractions, angles in radians. Everything that changes from run to run stands in the object "timings"; the
+/// rest is comparable byte for byte.
+std::string report_json(const Report& report);
+
+}  // namespace garment::results
