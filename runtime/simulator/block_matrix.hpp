@@ -1,6 +1,6 @@
 #pragma once
-// The solver's matrix: symmetric, 3x3 blocks over particles, fixed pattern, with the row sums of the elastic part kept
-// exactly zero.
+// The solver's matrix: symmetric, 3x3 blocks over particles, fixed pattern, with the row sums of the elastic
+// part kept exactly zero.
 #include <Eigen/Core>
 #include <cstddef>
 #include <memory>
@@ -24,8 +24,8 @@ struct BlockPattern {
   static BlockPattern from_pairs(std::size_t n_rows, std::vector<model::Indices<2>> pairs);
 };
 
-/// A = L + diag(added). L holds the elastic part; its diagonal is minus the sum of the row's other blocks, so that a
-/// translation costs exactly nothing although the blocks are floats: the product is
+/// A = L + diag(added). L holds the elastic part; its diagonal is minus the sum of the row's other blocks, so
+/// that a translation costs exactly nothing although the blocks are floats: the product is
 ///   y_i = sum_j A_ij (x_j - x_i) + added_i x_i.
 /// Positions and forces stay double; this matrix only shapes the search direction.
 class BlockMatrix {
@@ -39,19 +39,22 @@ class BlockMatrix {
 
   /// y = A x, both [n_rows]; y is resized. Same bits for any number of threads.
   void multiply(const std::vector<Eigen::Vector3f>& x, std::vector<Eigen::Vector3f>& y) const;
-  /// y = A x, and the sum of x . y, accumulated in double in fixed order (what conjugate gradients ask for next).
+  /// y = A x, and the sum of x . y, accumulated in double in fixed order (what conjugate gradients ask for
+  /// next).
   double multiply_and_dot(const std::vector<Eigen::Vector3f>& x, std::vector<Eigen::Vector3f>& y) const;
 
-  /// Adds a symmetric block (a contact, N/m) or a multiple of the identity (mass over the step squared) at (i, i).
-  /// Neighbouring i may be added by different threads, one i by one thread at a time.
+  /// Adds a symmetric block (a contact, N/m) or a multiple of the identity (mass over the step squared) at
+  /// (i, i). Neighbouring i may be added by different threads, one i by one thread at a time.
   void add_diagonal(std::size_t i, const Eigen::Matrix3d& block) { added_[i] += block.cast<float>(); }
-  void add_diagonal(std::size_t i, double scale) { added_[i].diagonal().array() += static_cast<float>(scale); }
+  void add_diagonal(std::size_t i, double scale) {
+    added_[i].diagonal().array() += static_cast<float>(scale);
+  }
   /// Removes all that was added on the diagonal; the elastic part stays.
   void clear_added();
 
   /// The whole block (i, i): elastic part and what was added.
   Eigen::Matrix3d diagonal(std::size_t i) const { return elastic_diagonal_[i] + added_[i].cast<double>(); }
-  /// The block at a position of the pattern: row-major or column-major does not matter to callers, it is a copy.
+  /// A copy of the off-diagonal block at a position of the pattern.
   Eigen::Matrix3f block(std::size_t position) const {
     return Eigen::Map<const Eigen::Matrix3f>(blocks_.data() + 9 * position);
   }
@@ -59,8 +62,9 @@ class BlockMatrix {
   /// [3n x 3n] copy for tests and for small coarse problems.
   Eigen::MatrixXd to_dense() const;
 
-  /// For assembly: the nine floats (column-major) of the block at `position`. Only blocks with row < column are to be
-  /// written; `finish_assembly` copies them to the other triangle and computes the elastic diagonal.
+  /// For assembly: the nine floats (column-major) of the block at `position`. Only blocks with row < column
+  /// are to be written; `finish_assembly` copies them to the other triangle and computes the elastic
+  /// diagonal.
   float* raw_block(std::size_t position) { return blocks_.data() + 9 * position; }
   void finish_assembly();
 

@@ -11,14 +11,14 @@ enum class SheetPlane {
 
 /// nx x ny particles at spacing h; particle (i, j), i along weft and j along warp, has id j * nx + i.
 struct SheetSpec {
-  int nx = 2, ny = 2;          ///< particles, >= 2
-  double h = 0.01;             ///< m
-  double stretch = 1000;       ///< K of the linear law N = K strain, N/m
-  double shear = 50;           ///< G, N/m
-  double bend = 1e-5;          ///< B, N m
-  double twist = 4e-6;         ///< Ct, N m
-  double density = 0.2;        ///< kg/m^2
-  double thickness = 5e-4;     ///< m
+  int nx = 2, ny = 2;       ///< particles, >= 2
+  double h = 0.01;          ///< m
+  double stretch = 1000;    ///< K of the linear law N = K strain, N/m
+  double shear = 50;        ///< G, N/m
+  double bend = 1e-5;       ///< B, N m
+  double twist = 4e-6;      ///< Ct, N m
+  double density = 0.2;     ///< kg/m^2
+  double thickness = 5e-4;  ///< m
   double friction = 0.3;
   SheetPlane plane = SheetPlane::vertical;
 };
@@ -30,8 +30,8 @@ inline model::TensileLaw linear_law(double stretch) {
   return {{-0.5, 0, 0.5}, {-0.5 * stretch, 0, 0.5 * stretch}, {stretch, stretch, stretch}};
 }
 
-/// The flat sheet, at rest without gravity, no holds. Lower left corner at the origin; border springs and bends carry
-/// half the width, so the tributary widths sum to the sheet's.
+/// The flat sheet, at rest without gravity, no holds. Lower left corner at the origin; border springs and
+/// bends carry half the width, so the tributary widths sum to the sheet's.
 inline model::Model make_sheet(const SheetSpec& s) {
   using model::Index;
   model::Model m;
@@ -42,7 +42,8 @@ inline model::Model make_sheet(const SheetSpec& s) {
     for (Index i = 0; i < nx; ++i) {
       const double u = i * s.h, v = j * s.h;
       m.mass.push_back(s.density * s.h * s.h * share(i, nx) * share(j, ny));
-      m.start.push_back(s.plane == SheetPlane::vertical ? model::Vector3d(u, v, 0) : model::Vector3d(u, 0, -v));
+      m.start.push_back(s.plane == SheetPlane::vertical ? model::Vector3d(u, v, 0)
+                                                        : model::Vector3d(u, 0, -v));
       m.thickness.push_back(s.thickness);
       m.friction.push_back(s.friction);
       m.vertex_particle.push_back(id(i, j));

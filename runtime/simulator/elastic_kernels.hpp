@@ -1,0 +1,136 @@
+#pragma once
+// The mathematics of one stencil each: positions in, energy, gradient and curvature out. Inlined into the
+// loops of elastic.cpp; no trigonometry of the C library, whose last bits change with the processor.
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/simulator/tensile_table.hpp"
+
+namespace garment::simulator {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+/// Edges shorter than this count as this long (m): directions fade out instead of becoming NaN.
+constexpr double kLeastLength = 1e-7;
+
+/// asin for |x| <= 1 (beyond: clamped), error under 1 ulp or so. The rational approximation of FreeBSD's libm
+/// (e_asin.c), which uses nothing but + * / and sqrt.
+inline double arc_sine(double x) {
+  const double a = std::min(std::abs(x), 1.0);
+  const bool small = a < 0.5;
+  const double t = small ? a * a : (1 - a) / 2;
+  const double p = t * (1.66666666666666657415e-01 +
+                        t * (-3.25565818622400915405e-01 +
+                             t * (2.01212532134862925881e-01 +
+                                  t * (-4.00555345006794114027e-02 +
+                                       t * (7.91534994289814532176e-04 + t * 3.47933107596021167570e-05)))));
+  const double q = 1 + t * (-2.40339491173441421878e+00 +
+                            t * (2.02094576023350569471e+00 +
+                                 t * (-6.88283971605453293030e-01 + t * 7.70381505559019352791e-02)));
+  const double base = small ? a : std::sqrt(t);
+  const double s = base + base * (p / q);
+  return std::copysign(small ? s : 1.57079632679489661923 - 2 * s, x);
+}
+
+/// An edge and its direction.
+struct Direction {
+  Vector3d unit;
+  double inverse_length;
+  explicit Direction(const Vector3d& edge) {
+    inverse_length = 1 / std::max(edge.norm(), kLeastLength);
+    unit = edge * inverse_length;
+  }
+};
+
+/// Trellis angle phi = pi/2 - angle(a, b) and its gradients along the two edges.
+///        b
+///        ^   / phi > 0: the corner has closed
+///        |  /
+///        +-----> a
+struct TrellisAngle {
+  double phi;
+  Vector3d grad_a, grad_b;  ///< rad/m
+  TrellisAngle(const Direction& a, const Direction& b) {
+    const double s = a.unit.dot(b.unit);
+    phi = arc_sine(s);
+    const double inverse_cosine = 1 / std::max(std::sqrt(std::max((1 - s) * (1 + s), 0.0)), 1e-9);
+    grad_a = (b.unit - s * a.unit) * (inverse_cosine * a.inverse_length);
+    grad_b = (a.unit - s * b.unit) * (inverse_cosine * b.inverse_length);
+  }
+};
+
+/// Bending at the middle of three particles, E = k/2 psi^2, psi = 2 tan(theta/2), going on linearly in theta
+/// beyond 120 degrees, where psi = 2 sqrt(3) and dpsi/dtheta = 4.
+///
+///     before ---e_in---> at ---e_out---> after,   theta = angle between e_in and e_out
+///
+/// With u = 1 - cos(theta) = |t_out - t_in|^2 / 2 there is no trigonometry below 120 degrees: psi^2 = 4 u /
+/// (2 - u).
+struct BendTerm {
+  double energy;
+  Vector3d grad_in, grad_out;  ///< dE/d(e_in), dE/d(e_out), N
+  double stiffness;            ///< k (dpsi/dtheta)^2, N m
+  BendTerm(double k, const Direction& in, const Direction& out) {
+    const Vector3d d = out.unit - in.unit;
+    const double u = 0.5 * d.squaredNorm();
+    double slope;  // dE/du
+    if (u <= 1.5) {
+      const double r = 1 / (2 - u);
+      energy = 2 * k * u * r;
+      slope = 4 * k * r * r;
+      stiffness = slope;  // dpsi/dtheta = 1 + psi^2/4 = 2 r
+    } else {
+      const double m = (out.unit + in.unit).norm();
+      constexpr double kTwoRootThree = 3.46410161513775458705, kThirdOfPi = 1.04719755119659774615;
+      const double psi = kTwoRootThree + 4 * (kThirdOfPi - 2 * arc_sine(m / 2));  // theta - 2 pi/3
+      energy = 0.5 * k * psi * psi;
+      slope = 4 * k * psi / std::max(m * std::sqrt(0.5 * u), 1e-9);  // du = sin(theta) dtheta
+      stiffness = 16 * k;
+    }
+    grad_out = (d - u * out.unit) * (slope * out.inverse_length);
+    grad_in = (d + u * in.unit) * (-slope * in.inverse_length);
+  }
+};
+
+/// along n nT + across (I - n nT): curvature of an energy that depends on the length of one vector.
+inline Matrix3d length_curvature(const Vector3d& n, double along, double across) {
+  Matrix3d h = ((along - across) * n) * n.transpose();
+  h.diagonal().array() += across;
+  return h;
+}
+
+/// Cut cell per unit of area: E = Psi1(|U| - 1) + Psi2(|V| - 1) + G phi^2 / 2.
+struct MembraneTerm {
+  Tension u, v;
+  Direction along_u, along_v;
+  TrellisAngle angle;
+  MembraneTerm(const TensileTable& warp, const TensileTable& weft, const Vector3d& U, const Vector3d& V)
+      : u(warp.at(U.norm() - 1)), v(weft.at(V.norm() - 1)), along_u(U), along_v(V), angle(along_u, along_v) {}
+  double energy(double scale, double G) const {
+    return scale * (u.psi + v.psi) + 0.5 * G * angle.phi * angle.phi;
+  }
+  Vector3d grad_u(double scale, double G) const {
+    return scale * u.force * along_u.unit + G * angle.phi * angle.grad_a;
+  }
+  Vector3d grad_v(double scale, double G) const {
+    return scale * v.force * along_v.unit + G * angle.phi * angle.grad_b;
+  }
+  Matrix3d curvature_uu(double scale, double G) const {
+    return side(u, along_u, scale) + G * angle.grad_a * angle.grad_a.transpose();
+  }
+  Matrix3d curvature_vv(double scale, double G) const {
+    return side(v, along_v, scale) + G * angle.grad_b * angle.grad_b.transpose();
+  }
+  Matrix3d curvature_uv(double G) const { return G * angle.grad_a * angle.grad_b.transpose(); }
+
+ private:
+  static Matrix3d side(const Tension& t, const Direction& d, double scale) {
+    return length_curvature(d.unit, scale * std::max(t.slope, 0.0),
+                            scale * std::max(t.force, 0.0) * d.inverse_length);
+  }
+};
+
+}  // namespace garment::simulator
