@@ -13,22 +13,17 @@
 
 namespace garment::grammar {
 
-/// A name as written. May hold braces ("h_{i}"): they are filled when evaluated.
-struct Name {
-  std::string text;
-  Span span;
-};
-
 enum class ExprKind : std::uint8_t {
   number,       ///< `number` and `unit` ("" if none): 58 cm, 20%, 0.12 gf*cm^2/cm
-  string,       ///< children alternate: string parts (kind text) and `{expr}` parts
+  string,       ///< children are string parts (kind text) and `{expr}` parts; `text` is the whole if there is no `{expr}`
   text,         ///< literal part of a string, in `text`
   boolean,      ///< text is "true" or "false"
-  name,         ///< text
-  member,       ///< children[0] . text            front.side
+  name,         ///< text; children are the parts of a name with braces, as in Name::parts
+  member,       ///< children[0] . text            front.side; further children are the parts of a name with braces
   range_index,  ///< children[0] [ children[1] .. children[2] ]; a missing end is kind `none`
   index,        ///< children[0] [ children[1] ]
-  call,         ///< children[0] ( arguments ); argument i is children[i+1], its name labels[i] ("" if positional)
+  call,         ///< children[0] ( arguments ); argument i is children[i+1], its name labels[i] ("" if positional); an
+                ///< argument `long: length = 60 cm` (a parameter with default) is a binary "=" of type and default
   unary,        ///< text is "-", "+", "not", "minus"
   binary,       ///< text is + - * / ^ == != < <= > >= and or minus is
   range,        ///< children[0] .. children[1]
@@ -41,6 +36,8 @@ enum class ExprKind : std::uint8_t {
   error,        ///< could not be parsed; a diagnostic was given
 };
 
+struct Name;
+
 struct Expr {
   ExprKind kind = ExprKind::none;
   Span span;
@@ -51,6 +48,13 @@ struct Expr {
   std::vector<Expr> children;
   std::vector<Name> labels;
   Span name_span;  ///< of `text` in a member
+};
+
+/// A name as written. May hold braces ("h_{i}"): they are filled when evaluated.
+struct Name {
+  std::string text;
+  Span span;
+  std::vector<Expr> parts = {};  ///< of a name with braces: literal parts (kind text) and `{expr}` parts in order; else empty
 };
 
 /// A clause word and the values that follow it: `through (1 cm, 2 cm)`, `at 20 cm before end`. Words among the values are
@@ -107,10 +111,24 @@ struct ParseLimits {
 struct ParseResult {
   Script script;            ///< always there; broken statements are marked
   Diagnostics diagnostics;
+  bool incomplete = false;  ///< the text ends inside a bracket or block or after an operator: more lines would help
 };
 
 /// Parses a whole source. Never fails: errors are collected and parsing goes on at the next statement.
 ParseResult parse(const Sources& sources, SourceId source, const Vocabulary& vocabulary, const ParseLimits& limits = {});
+
+/// A source that holds one expression and nothing else, as a person types it at the prompt.
+struct ExpressionResult {
+  Expr expr;
+  Diagnostics diagnostics;
+  bool incomplete = false;
+};
+ExpressionResult parse_expression(const Sources& sources, SourceId source, const Vocabulary& vocabulary,
+                                  const ParseLimits& limits = {});
+
+/// True if both trees say the same; spans are not compared.
+bool same_tree(const Expr& a, const Expr& b);
+bool same_tree(const Block& a, const Block& b);
 
 /// The tree as JSON (kinds, texts, byte spans), for `garment parse --json`.
 std::string to_json(const Script& script, const Sources& sources);
