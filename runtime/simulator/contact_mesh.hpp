@@ -75,7 +75,9 @@ class ContactMesh {
 
  private:
   double graph_distance(Index i, Index j) const;  // infinite when not near neighbours
-  double cloth_distance(double thick_a, double thick_b, double star, double graph) const;
+  bool joined(Index i, Index j) const;            // by an edge
+  template <std::size_t M, std::size_t N>
+  double cloth_distance(const std::array<Index, M>& a, const std::array<Index, N>& b, double star) const;
   void add_bodies(const std::vector<body::Body>& bodies);
   void connect();
   void measure_rest(const model::Model& model);
