@@ -64,7 +64,8 @@ double Bvh::fit(const std::vector<FloatBox>& boxes) {
   leaf_boxes_.resize(order_.size());
   for (std::size_t k = 0; k < order_.size(); ++k) leaf_boxes_[k] = boxes[order_[k]];
   double sum = 0;
-  for (auto i = static_cast<std::int32_t>(nodes_.size()) - 1; i >= 0; --i) {  // children stand behind their parents
+  for (auto i = static_cast<std::int32_t>(nodes_.size()) - 1; i >= 0;
+       --i) {  // children stand behind their parents
     Node& node = nodes_[i];
     node.box = FloatBox{};
     if (node.skip == i + 1) {

@@ -102,13 +102,12 @@ void Candidates::rebuild(const ContactMesh& mesh, const std::vector<Vector3d>& x
           static_cast<std::int32_t>(k) + 1);
     });
   first_[2] = pairs_.size();
-  collect(mesh.body_triangle_tree.empty() ? 0 : n_particles, pairs_,
-          [&](std::size_t v, std::vector<Pair>& out) {
-            const auto point = static_cast<Index>(v);
-            mesh.body_triangle_tree.query(search.around(point), [&](std::int32_t t) {
-              search.vt(point, t + mesh.n_cloth_triangles, out);
-            });
-          });
+  collect(
+      mesh.body_triangle_tree.empty() ? 0 : n_particles, pairs_, [&](std::size_t v, std::vector<Pair>& out) {
+        const auto point = static_cast<Index>(v);
+        mesh.body_triangle_tree.query(
+            search.around(point), [&](std::int32_t t) { search.vt(point, t + mesh.n_cloth_triangles, out); });
+      });
   first_[3] = pairs_.size();
   collect(triangle_tree_.empty() ? 0 : mesh.body_point.size(), pairs_,
           [&](std::size_t v, std::vector<Pair>& out) {

@@ -6,8 +6,8 @@
 namespace garment::simulator {
 namespace {
 
-constexpr double kFlat = 1e-24;      // squared sine of an angle below which a triangle counts as a segment
-constexpr double kParallel = 1e-8;   // squared sine below which both ends of parallel segments are tried too
+constexpr double kFlat = 1e-24;     // squared sine of an angle below which a triangle counts as a segment
+constexpr double kParallel = 1e-8;  // squared sine below which both ends of parallel segments are tried too
 
 /// How far p lies beyond u in the direction of w: the same bits whoever asks.
 double towards(const Vector3d& p, const Vector3d& u, const Vector3d& w) { return (w - u).dot(p - u); }

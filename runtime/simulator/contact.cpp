@@ -11,9 +11,9 @@
 namespace garment::simulator {
 namespace {
 
-constexpr std::size_t kGrain = 4096;       // pairs of one chunk
-constexpr double kZeroGap = 1e-12;         // m: below this the gap has no direction
-constexpr double kLeastDistance = 1e-9;    // m: the energy goes no nearer to its pole
+constexpr std::size_t kGrain = 4096;     // pairs of one chunk
+constexpr double kZeroGap = 1e-12;       // m: below this the gap has no direction
+constexpr double kLeastDistance = 1e-9;  // m: the energy goes no nearer to its pole
 
 /// Builds the contacts of one chunk of pairs.
 class Finder {
@@ -34,8 +34,8 @@ class Finder {
     }
   }
 
-  /// Edges in the interior of both; the energy of the nearest end is taken off, since points against triangles count
-  /// it, so the contact fades out towards the ends and where the edges become parallel.
+  /// Edges in the interior of both; the energy of the nearest end is taken off, since points against
+  /// triangles count it, so the contact fades out towards the ends and where the edges become parallel.
   void ee(Index e, Index f, double r, Index pair) {
     const Indices<4> p{mesh_.edge[e][0], mesh_.edge[e][1], mesh_.edge[f][0], mesh_.edge[f][1]};
     const Vector3d &a = at(p[0]), &b = at(p[1]), &c = at(p[2]), &d = at(p[3]);
@@ -156,7 +156,8 @@ class Finder {
     finish(contact, gap, u.cross(v), share, r, pair);
   }
 
-  void finish(Contact& contact, const Vector3d& gap, const Vector3d& without_gap, int share, double r, Index pair) {
+  void finish(Contact& contact, const Vector3d& gap, const Vector3d& without_gap, int share, double r,
+              Index pair) {
     contact.distance = gap.norm();
     const Vector3d direction = contact.distance > kZeroGap ? gap : without_gap;
     const double length = direction.norm();

@@ -10,8 +10,8 @@ namespace garment::simulator {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-// A path along edges is longer than the straight one; on grid-like meshes with angles above 20 degrees by less than
-// 1 / 0.6.
+// A path along edges is longer than the straight one; on grid-like meshes with angles above 20 degrees by
+// less than 1 / 0.6.
 constexpr double kPathToStraight = 0.6;
 
 /// Rows of the pairs (row, item), items ascending.
@@ -55,9 +55,8 @@ ContactMesh::ContactMesh(const model::Model& model, const std::vector<body::Body
   friction = model.friction;
   add_bodies(bodies);
   connect();
-  const double half = half_thickness.empty()
-                          ? 0
-                          : *std::max_element(half_thickness.begin(), half_thickness.end());
+  const double half =
+      half_thickness.empty() ? 0 : *std::max_element(half_thickness.begin(), half_thickness.end());
   if (options.self) largest_contact_distance = std::max(2 * half, options.self_minimum);
   if (!body_point.empty())
     largest_contact_distance = std::max({largest_contact_distance, half, options.body_minimum});
@@ -200,7 +199,8 @@ bool ContactMesh::joined(Index i, Index j) const {
 template <std::size_t M, std::size_t N>
 double ContactMesh::cloth_distance(const std::array<Index, M>& a, const std::array<Index, N>& b,
                                    double star) const {
-  const double free = std::max(thickest(half_thickness, a) + thickest(half_thickness, b), options.self_minimum);
+  const double free =
+      std::max(thickest(half_thickness, a) + thickest(half_thickness, b), options.self_minimum);
   double path = kInfinite;
   bool neighbours = false;
   for (Index i : a)

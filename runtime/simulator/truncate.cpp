@@ -11,9 +11,9 @@ namespace garment::simulator {
 namespace {
 
 constexpr std::size_t kGrain = 4096;
-constexpr double kZeroGap = 1e-12;     // m: below this the gap has no direction
-constexpr double kLeastGap = 1e-8;     // m: gaps below do not close further; far above all rounding errors here
-constexpr int kSweeps = 4;             // over the walls of a particle before its displacement shrinks as a whole
+constexpr double kZeroGap = 1e-12;  // m: below this the gap has no direction
+constexpr double kLeastGap = 1e-8;  // m: gaps below do not close further; far above all rounding errors here
+constexpr int kSweeps = 4;          // over the walls of a particle before its displacement shrinks as a whole
 
 /// A particle may move by at most `bound` along `normal`.
 struct Wall {
@@ -33,10 +33,10 @@ class WallFinder {
     const Vector3d &p = at(v), &a = at(c[0]), &b = at(c[1]), &d = at(c[2]);
     const TrianglePoint s = closest_on_triangle(p, a, b, d);
     const Vector3d q = s.weights[0] * a + s.weights[1] * b + s.weights[2] * d;
-    const Vector3d motion = move(v) - s.weights[0] * move(c[0]) - s.weights[1] * move(c[1]) -
-                            s.weights[2] * move(c[2]);
+    const Vector3d motion =
+        move(v) - s.weights[0] * move(c[0]) - s.weights[1] * move(c[1]) - s.weights[2] * move(c[2]);
     const Index first[1] = {v};
-    walls(p, q, (b - a).cross(d - a), motion, first, c);
+    walls(p, q, (b - a).cross(d - a), mesh_.is_body(c[0]), motion, first, c);
   }
 
   void ee(Index e, Index f) {
@@ -46,25 +46,25 @@ class WallFinder {
     const Vector3d p = a + s.s * (b - a), q = c + s.t * (d - c);
     const Vector3d motion =
         (1 - s.s) * move(i[0]) + s.s * move(i[1]) - (1 - s.t) * move(j[0]) - s.t * move(j[1]);
-    walls(p, q, (b - a).cross(d - c), motion, i, j);
+    walls(p, q, (b - a).cross(d - c), false, motion, i, j);
   }
 
  private:
   const Vector3d& at(Index point) const { return mesh_.at(x_, point); }
   Vector3d move(Index point) const { return mesh_.is_body(point) ? Vector3d::Zero() : dx_[point]; }
 
-  /// p, q: closest points of the first and the second part. `without_gap`: direction to use when they coincide, on the
-  /// side to which they are going to part (in front of a body: outside).
+  /// p, q: closest points of the first and the second part. When they coincide, `without_gap` is the wall's
+  /// normal: towards the first part if `oriented`, else the side to which they are going to part.
   template <class First, class Second>
-  void walls(const Vector3d& p, const Vector3d& q, const Vector3d& without_gap, const Vector3d& motion,
-             const First& first, const Second& second) {
+  void walls(const Vector3d& p, const Vector3d& q, const Vector3d& without_gap, bool oriented,
+             const Vector3d& motion, const First& first, const Second& second) {
     Vector3d normal = p - q;
     double gap = normal.norm();
     if (gap < kZeroGap) {
       gap = without_gap.norm();
       normal = gap > 0 ? without_gap : Vector3d(0, 1, 0);
       if (gap <= 0) gap = 1;
-      if (!mesh_.is_body(second[0]) && normal.dot(motion) < 0) normal = -normal;
+      if (!oriented && normal.dot(motion) < 0) normal = -normal;
     }
     normal /= gap;
     const bool first_moves = !mesh_.is_body(first[0]), second_moves = !mesh_.is_body(second[0]);
@@ -78,9 +78,10 @@ class WallFinder {
   void add(Index particle, const Vector3d& towards, double distance) {
     const double bound = fraction_ * std::max(0.0, distance - kLeastGap);
     if (length_[particle] <= bound) return;
-    out_.push_back({particle,
-                    {static_cast<float>(towards[0]), static_cast<float>(towards[1]), static_cast<float>(towards[2])},
-                    static_cast<float>(bound * (1 - 1e-6))});
+    out_.push_back(
+        {particle,
+         {static_cast<float>(towards[0]), static_cast<float>(towards[1]), static_cast<float>(towards[2])},
+         static_cast<float>(bound * (1 - 1e-6))});
   }
 
   const ContactMesh& mesh_;
@@ -133,7 +134,9 @@ double share_within(const Vector3d& u, const Vector3d& d, double reach) {
   return std::max(0.0, (std::sqrt(b * b - dd * c) - b) / dd * (1 - 1e-9));
 }
 
-double along(const Wall& w, const Vector3d& d) { return w.normal[0] * d[0] + w.normal[1] * d[1] + w.normal[2] * d[2]; }
+double along(const Wall& w, const Vector3d& d) {
+  return w.normal[0] * d[0] + w.normal[1] * d[1] + w.normal[2] * d[2];
+}
 
 /// Takes the parts of d beyond the walls off, then shrinks what still goes too far.
 Vector3d hold_back(const Wall* begin, const Wall* end, Vector3d d) {
@@ -164,8 +167,10 @@ TruncateStats truncate(const ContactMesh& mesh, const Candidates& candidates, co
   for (std::size_t i = 0; i < dx.size(); ++i) {
     // Longer ones cannot end within reach; what is not finite does not move.
     const double length = dx[i].norm(), most = candidates.reach() + (x[i] - x0[i]).norm();
-    if (!(length < 1e300)) dx[i].setZero();
-    else if (length > most) dx[i] *= most / length;
+    if (!(length < 1e300))
+      dx[i].setZero();
+    else if (length > most)
+      dx[i] *= most / length;
   }
   const std::vector<std::vector<Wall>> found = find_walls(mesh, candidates, x, dx, options.fraction);
 
