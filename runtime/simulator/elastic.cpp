@@ -167,6 +167,7 @@ class ChunkPass {
   }
 
   double fit(const FitStencil& s) const {
+    if (s.begin == s.end) return 0;
     // Columns: K_11, K_22, K_12. Relative to the first particle, since the weights sum to zero.
     const Vector3d& origin = at(s_.fit_particle[s.begin]);
     Matrix3d curvature = Matrix3d::Zero();

@@ -362,6 +362,27 @@ TEST_CASE("collapsed stencils and merged corners stay finite") {
   check_finite(m, test::crumpled(m, 0.003, 2));
 }
 
+TEST_CASE("models without particles, or with particles alone, have no energy") {
+  model::Model m;
+  Positions f{Vector3d(1, 2, 3)};
+  const ElasticModel nothing(m);
+  auto empty = nothing.make_matrix();
+  CHECK(nothing.energy_force_hessian({}, f, empty) == 0);
+  CHECK(f.empty());
+  m.mass = {1, 1};
+  m.fit_begin = {0, 0};  // one fit, of no particle
+  m.fit_area = {1e-4};
+  m.fit_rigidity = {{1e-5, 1e-5, 1e-5, 0, 0, 0}};
+  const ElasticModel alone(m);
+  auto matrix = alone.make_matrix();
+  CHECK(alone.energy_force_hessian({{0, 0, 0}, {1, 0, 0}}, f, matrix) == 0);
+  CHECK(f == Positions(2, Vector3d::Zero()));
+  matrix.add_diagonal(1, 3);
+  std::vector<Eigen::Vector3f> y;
+  matrix.multiply({{1, 2, 3}, {4, 5, 6}}, y);
+  CHECK(y[1] == Eigen::Vector3f(12, 15, 18));
+}
+
 TEST_CASE("the tensile scale acts on springs and cut cells only") {
   for (const ElasticCase& c : test::elastic_cases()) {
     INFO(c.name);
