@@ -17,33 +17,33 @@ namespace garment::body {
 using Eigen::Vector3d;
 
 struct TriangleMesh {
-  std::vector<Vector3d> vertices;                ///< m
-  std::vector<std::array<int, 3>> triangles;     ///< counter-clockwise from outside
+  std::vector<Vector3d> vertices;             ///< m
+  std::vector<std::array<int, 3>> triangles;  ///< counter-clockwise from outside
 };
 
 /// Closest point of the surface.
 struct SurfacePoint {
   Vector3d point;
-  Vector3d normal;        ///< outward, unit; smooth (angle-weighted) at edges and vertices
-  double distance = 0;    ///< signed: negative inside
+  Vector3d normal;      ///< outward, unit; smooth (angle-weighted) at edges and vertices
+  double distance = 0;  ///< signed: negative inside
   int triangle = -1;
 };
 
 /// A horizontal level of a person ("waist", "hip", "bust", "neck", "knee", ...).
 struct Level {
-  double height = 0;      ///< y, m
-  double girth = 0;       ///< convex-hull girth of that section, m
+  double height = 0;  ///< y, m
+  double girth = 0;   ///< convex-hull girth of that section, m
 };
 
 /// A part that cloth can be wrapped on: a chain of sections square to an axis (torso, limb, neck).
 /// Section k is a convex closed polygon in the plane through `center` spanned by `u` and `v`.
 struct Section {
-  Vector3d center, axis, u, v;                   ///< axis: unit, from `start` to `end` of the part; u x v = axis
-  std::vector<Eigen::Vector2d> hull;             ///< convex, counter-clockwise in (u, v), m
+  Vector3d center, axis, u, v;        ///< axis: unit, from `start` to `end` of the part; u x v = axis
+  std::vector<Eigen::Vector2d> hull;  ///< convex, counter-clockwise in (u, v), m
 };
 struct Part {
-  std::string name;                              ///< "torso", "arm.left", "arm.right", "leg.left", "leg.right", "neck", "head"
-  std::vector<Section> sections;                 ///< ordered along the axis
+  std::string name;  ///< "torso", "arm.left", "arm.right", "leg.left", "leg.right", "neck", "head"
+  std::vector<Section> sections;  ///< ordered along the axis
 };
 
 class Body {
@@ -51,8 +51,8 @@ class Body {
   std::string name;
   double friction = 0.3;
   TriangleMesh mesh;
-  std::map<std::string, Level> levels;           ///< empty on plain shapes
-  std::map<std::string, Part> parts;             ///< empty on plain shapes
+  std::map<std::string, Level> levels;  ///< empty on plain shapes
+  std::map<std::string, Part> parts;    ///< empty on plain shapes
 
   /// Closest point of the surface within `max_distance` of `p`; nothing if it is farther away.
   std::optional<SurfacePoint> closest(const Vector3d& p, double max_distance) const;
@@ -60,7 +60,7 @@ class Body {
   double winding(const Vector3d& p) const;
   bool inside(const Vector3d& p) const { return winding(p) >= 0.5; }
 
-  struct Index;                                  ///< FCL BVHModel and search tables, made by build_index
+  struct Index;  ///< FCL BVHModel and search tables, made by build_index
   std::shared_ptr<const Index> index;
 };
 
@@ -72,8 +72,8 @@ struct BodyResult {
   Findings findings;
 };
 
-/// Builds a declared body. Fails with coded findings on unreadable, truncated, empty, huge or open meshes, and on
-/// measures out of range.
+/// Builds a declared body. Fails with coded findings on unreadable, truncated, empty, huge or open meshes,
+/// and on measures out of range.
 BodyResult build_body(const design::Body& declared, Host& host, const std::string& base_folder);
 
 }  // namespace garment::body
