@@ -7,6 +7,11 @@ namespace garment::simulator {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
+namespace {
+constexpr double kAtLimit = 0.99;   // share of the limit from which a spring counts as slipping
+constexpr double kSlipShare = 0.01; // of the stiffness that is left along the slip, so that the matrix stays definite
+}  // namespace
+
 void BodyFriction::begin_step() {
   for (Touch& t : touch_) {
     t.sum.setZero();
@@ -55,8 +60,14 @@ void BodyFriction::add_force(const std::vector<Vector3d>& x, std::vector<Vector3
     Vector3d u = slip(t, x[i]);
     double size = u.norm();
     double stiffness = stiffness_ * size <= t.limit ? stiffness_ : t.limit / size;
+    // A spring at its limit that is still pulled gives no more resistance along the slip: the solver must not see any,
+    // or sliding takes hundreds of steps.
+    bool slips = stiffness_ * size >= kAtLimit * t.limit && size > 0 && force[i].dot(u) > t.limit * size;
     force[i] -= stiffness * u;
-    if (matrix) matrix->add_diagonal(i, Matrix3d(stiffness * (Matrix3d::Identity() - t.normal * t.normal.transpose())));
+    if (!matrix) continue;
+    Matrix3d plane = Matrix3d::Identity() - t.normal * t.normal.transpose();
+    if (slips) plane -= (1 - kSlipShare) * (u * u.transpose()) / (size * size);
+    matrix->add_diagonal(i, Matrix3d(stiffness * plane));
   }
 }
 

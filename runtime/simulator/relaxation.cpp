@@ -252,6 +252,8 @@ StepReport Relaxation::step(Vectors& x) {
     driven = true;
   }
   TruncateStats cut = truncate(mesh_, candidates_, x, dx_);
+  report.limited = cut.limited;
+  report.out_of_reach = cut.out_of_reach;
 
   trial_.resize(x.size());
   double scale = 1, after = 0;
@@ -269,8 +271,10 @@ StepReport Relaxation::step(Vectors& x) {
     time_step_ = std::max(kSmallestTimeStep, time_step_ / 4);
     return report;
   }
+  report.scale = scale;
   report.largest_motion = scale * largest(dx_);
   recent_motion_ = std::max(report.largest_motion, 0.7 * recent_motion_);
+  if (cut.out_of_reach > 0) recent_motion_ = std::min(2 * recent_motion_, spacing_ / 2);
   x.swap(trial_);
   friction_.follow(x);
   if (cut.out_of_reach > 0) have_candidates_ = false;

@@ -1,0 +1,36 @@
+#include "runtime/simulator/drape_levels.hpp"
+
+#include "runtime/simulator/prolong.hpp"
+
+namespace garment::simulator {
+
+DrapeReport drape_levels(const std::vector<model::Model>& coarse, const model::Model& model,
+                         const std::vector<body::Body>& bodies, model::State& state, const DrapeSettings& settings) {
+  const model::Model* from = nullptr;
+  std::vector<model::Vector3d> positions;
+  int steps = 0;
+  for (const model::Model& level : coarse) {
+    model::State on_level;
+    on_level.position = from ? prolong(*from, positions, level) : level.start;
+    DrapeSettings rough = settings;
+    // A coarse garment only has to find the folds; the fine one comes to rest.
+    if (settings.settle != Settle::preview) rough.settle = Settle::equilibrium;
+    DrapeReport report = drape(level, bodies, on_level, rough);
+    steps += report.steps;
+    if (report.status == DrapeStatus::interrupted) {
+      state.position = prolong(level, on_level.position, model);
+      state.velocity.assign(model.n_particles(), model::Vector3d::Zero());
+      report.steps = steps;
+      return report;
+    }
+    if (report.status != DrapeStatus::at_rest && report.status != DrapeStatus::not_settled) continue;
+    from = &level;
+    positions = std::move(on_level.position);
+  }
+  if (from) state.position = prolong(*from, positions, model);
+  DrapeReport report = drape(model, bodies, state, settings);
+  report.steps += steps;
+  return report;
+}
+
+}  // namespace garment::simulator

@@ -1,0 +1,15 @@
+#pragma once
+// A drape from coarse to fine (design "physics", section 3.2, point 1).
+#include <vector>
+
+#include "runtime/simulator/drape.hpp"
+
+namespace garment::simulator {
+
+/// Drapes on each of the `coarse` models in turn (coarsest first), carries the result to the next finer grid by the flat
+/// pattern, and ends on `model`. `state` holds the result; without coarse models it is also the start. Steps are summed;
+/// residual, energy and certificate are those of the fine garment. Coarse levels that fail are passed over.
+DrapeReport drape_levels(const std::vector<model::Model>& coarse, const model::Model& model,
+                         const std::vector<body::Body>& bodies, model::State& state, const DrapeSettings& settings);
+
+}  // namespace garment::simulator
