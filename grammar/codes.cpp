@@ -15,7 +15,8 @@ const std::vector<CodeInfo>& code_table() {
 
 const CodeInfo* find_code(std::string_view code) {
   const std::vector<CodeInfo>& table = code_table();
-  auto row = std::find_if(table.begin(), table.end(), [&](const CodeInfo& info) { return info.code == code; });
+  auto row =
+      std::find_if(table.begin(), table.end(), [&](const CodeInfo& info) { return info.code == code; });
   return row == table.end() ? nullptr : &*row;
 }
 

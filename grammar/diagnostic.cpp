@@ -48,7 +48,8 @@ Span line_span(const Source& source, std::uint32_t line) {
   return {0, begin, static_cast<std::uint32_t>(end)};
 }
 
-/// A label over several lines is drawn under the rest of its first line and under its last line, which bears the text.
+/// A label over several lines is drawn under the rest of its first line and under its last line, which bears
+/// the text.
 void add_underlines(const Label& label, bool primary, const Sources& sources, Underlines& underlines) {
   const Source& source = sources[label.span.source];
   std::uint32_t size = static_cast<std::uint32_t>(source.text.size());
@@ -66,10 +67,12 @@ void add_underlines(const Label& label, bool primary, const Sources& sources, Un
   underlines[last].push_back({last, text_begin, end, label.text, primary});
 }
 
-/// A source line as a terminal shows it: tabs expanded, control characters escaped, and the column of every byte.
+/// A source line as a terminal shows it: tabs expanded, control characters escaped, and the column of every
+/// byte.
 struct ShownLine {
   std::string text;
-  std::vector<std::uint32_t> columns;  ///< of the bytes [begin, begin + columns.size()); the last is one past the end
+  std::vector<std::uint32_t>
+      columns;  ///< of the bytes [begin, begin + columns.size()); the last is one past the end
   std::uint32_t begin = 0;
 
   std::uint32_t column(std::uint32_t offset) const {
@@ -174,7 +177,8 @@ class Renderer {
       std::string marks(std::max(end, begin + 1) - begin, row.primary ? '^' : '-');
       std::string text = escape_controls(row.text);
       std::string_view tone = row.primary ? palette_.severity : palette_.gutter;
-      gutter(fmt::format("{:{}}{}{}{}{}{}", "", begin, tone, marks, text.empty() ? "" : " ", text, palette_.reset));
+      gutter(fmt::format("{:{}}{}{}{}{}{}", "", begin, tone, marks, text.empty() ? "" : " ", text,
+                         palette_.reset));
     }
   }
 

@@ -13,7 +13,8 @@ struct Label {
   std::string text;  ///< may be empty
 };
 
-/// `labels[0]` is the primary place. `message` says what was found, then what was expected; `help` is the remedy.
+/// `labels[0]` is the primary place. `message` says what was found, then what was expected; `help` is the
+/// remedy.
 struct Diagnostic {
   std::string code;  ///< "G0312"; in codes.def
   Severity severity = Severity::error;
@@ -24,10 +25,11 @@ struct Diagnostic {
 
 using Diagnostics = std::vector<Diagnostic>;
 
-/// Text as in the language design, section 7: caret lines, labels, `= help:`. `color` adds ANSI colours. Control
-/// characters from the source are shown escaped.
+/// Text as in the language design, section 7: caret lines, labels, `= help:`. `color` adds ANSI colours.
+/// Control characters from the source are shown escaped.
 std::string render(const Diagnostic& diagnostic, const Sources& sources, bool color);
-/// The same as a JSON array (code, severity, message, help, labels with source, byte span, line, column, text).
+/// The same as a JSON array (code, severity, message, help, labels with source, byte span, line, column,
+/// text).
 std::string render_json(const Diagnostics& diagnostics, const Sources& sources);
 
 /// One row of the table of codes.

@@ -1,5 +1,6 @@
 #pragma once
-// Source text and places in it. Spans are byte offsets; lines and columns are made only when a person reads them.
+// Source text and places in it. Spans are byte offsets; lines and columns are made only when a person reads
+// them.
 #include <cstdint>
 #include <string>
 #include <string_view>

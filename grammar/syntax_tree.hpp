@@ -14,16 +14,18 @@
 namespace garment::grammar {
 
 enum class ExprKind : std::uint8_t {
-  number,       ///< `number` and `unit` ("" if none): 58 cm, 20%, 0.12 gf*cm^2/cm
-  string,       ///< children are string parts (kind text) and `{expr}` parts; `text` is the whole if there is no `{expr}`
-  text,         ///< literal part of a string, in `text`
-  boolean,      ///< text is "true" or "false"
-  name,         ///< text; children are the parts of a name with braces, as in Name::parts
-  member,       ///< children[0] . text            front.side; further children are the parts of a name with braces
+  number,   ///< `number` and `unit` ("" if none): 58 cm, 20%, 0.12 gf*cm^2/cm
+  string,   ///< children are string parts (kind text) and `{expr}` parts; `text` is the whole if there is no
+            ///< `{expr}`
+  text,     ///< literal part of a string, in `text`
+  boolean,  ///< text is "true" or "false"
+  name,     ///< text; children are the parts of a name with braces, as in Name::parts
+  member,  ///< children[0] . text            front.side; further children are the parts of a name with braces
   range_index,  ///< children[0] [ children[1] .. children[2] ]; a missing end is kind `none`
   index,        ///< children[0] [ children[1] ]
-  call,         ///< children[0] ( arguments ); argument i is children[i+1], its name labels[i] ("" if positional); an
-                ///< argument `long: length = 60 cm` (a parameter with default) is a binary "=" of type and default
+  call,  ///< children[0] ( arguments ); argument i is children[i+1], its name labels[i] ("" if positional);
+         ///< an argument `long: length = 60 cm` (a parameter with default) is a binary "=" of type and
+         ///< default
   unary,        ///< text is "-", "+", "not", "minus"
   binary,       ///< text is + - * / ^ == != < <= > >= and or minus is
   range,        ///< children[0] .. children[1]
@@ -54,11 +56,13 @@ struct Expr {
 struct Name {
   std::string text;
   Span span;
-  std::vector<Expr> parts = {};  ///< of a name with braces: literal parts (kind text) and `{expr}` parts in order; else empty
+  std::vector<Expr> parts =
+      {};  ///< of a name with braces: literal parts (kind text) and `{expr}` parts in order; else empty
 };
 
-/// A clause word and the values that follow it: `through (1 cm, 2 cm)`, `at 20 cm before end`. Words among the values are
-/// expressions of kind `name`. `=` and `:` and `is` count as clause words where a construct has them.
+/// A clause word and the values that follow it: `through (1 cm, 2 cm)`, `at 20 cm before end`. Words among
+/// the values are expressions of kind `name`. `=` and `:` and `is` count as clause words where a construct
+/// has them.
 struct Clause {
   Name word;
   std::vector<Expr> values;
@@ -69,16 +73,17 @@ struct Statement;
 using Block = std::vector<Statement>;
 
 struct Statement {
-  Name keyword;                 ///< "panel"; "=" for an assignment (operands[0] is the target); "both" holds its statement in body
+  Name keyword;  ///< "panel"; "=" for an assignment (operands[0] is the target); "both" holds its statement
+                 ///< in body
   std::optional<Name> name;     ///< declared name, where the construct declares one
   std::vector<Expr> operands;   ///< what stands before the first clause word
   std::vector<Clause> clauses;  ///< in the order written
   std::optional<Block> body;
   std::optional<Block> else_body;  ///< of `if`
   Span body_span;
-  std::string doc;              ///< text of the `##` lines above, newline-joined
-  Span span;                    ///< whole statement
-  bool broken = false;          ///< had a syntax error; a diagnostic was given; not to be evaluated
+  std::string doc;      ///< text of the `##` lines above, newline-joined
+  Span span;            ///< whole statement
+  bool broken = false;  ///< had a syntax error; a diagnostic was given; not to be evaluated
 };
 
 struct Script {
@@ -89,10 +94,10 @@ struct Script {
 /// What the parser must know of a construct; made from the construct table of the interpreter.
 struct KeywordInfo {
   std::string keyword;
-  bool declares_name = false;             ///< the word after the keyword is a declared name
-  std::vector<std::string> clauses;       ///< clause words, in any order
-  bool has_body = false;                  ///< may be followed by { statements }
-  std::vector<std::string> body_keywords; ///< statement keywords allowed in the body; assignments always are
+  bool declares_name = false;              ///< the word after the keyword is a declared name
+  std::vector<std::string> clauses;        ///< clause words, in any order
+  bool has_body = false;                   ///< may be followed by { statements }
+  std::vector<std::string> body_keywords;  ///< statement keywords allowed in the body; assignments always are
 };
 
 /// All keywords. `top` lists those that stand at the top level. Besides, the parser itself knows: assignments
@@ -100,7 +105,8 @@ struct KeywordInfo {
 struct Vocabulary {
   std::vector<KeywordInfo> keywords;
   std::vector<std::string> top;
-  std::vector<std::string> units;         ///< closed table: "mm", "cm", "deg", "%", "gf*cm^2/cm" is joined from its parts
+  std::vector<std::string>
+      units;  ///< closed table: "mm", "cm", "deg", "%", "gf*cm^2/cm" is joined from its parts
 };
 
 struct ParseLimits {
@@ -109,13 +115,15 @@ struct ParseLimits {
 };
 
 struct ParseResult {
-  Script script;            ///< always there; broken statements are marked
+  Script script;  ///< always there; broken statements are marked
   Diagnostics diagnostics;
-  bool incomplete = false;  ///< the text ends inside a bracket or block or after an operator: more lines would help
+  bool incomplete =
+      false;  ///< the text ends inside a bracket or block or after an operator: more lines would help
 };
 
 /// Parses a whole source. Never fails: errors are collected and parsing goes on at the next statement.
-ParseResult parse(const Sources& sources, SourceId source, const Vocabulary& vocabulary, const ParseLimits& limits = {});
+ParseResult parse(const Sources& sources, SourceId source, const Vocabulary& vocabulary,
+                  const ParseLimits& limits = {});
 
 /// A source that holds one expression and nothing else, as a person types it at the prompt.
 struct ExpressionResult {
@@ -135,8 +143,8 @@ std::string to_json(const Script& script, const Sources& sources);
 /// The tree as an indented text outline, for people and goldens.
 std::string to_outline(const Script& script);
 
-/// Canonical layout of a source: two-space indents, one blank between words, comments kept. Idempotent; the result
-/// parses to the same tree. Sources with syntax errors come back unchanged with the diagnostics.
+/// Canonical layout of a source: two-space indents, one blank between words, comments kept. Idempotent; the
+/// result parses to the same tree. Sources with syntax errors come back unchanged with the diagnostics.
 struct FormatResult {
   std::string text;
   Diagnostics diagnostics;

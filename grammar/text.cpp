@@ -87,6 +87,25 @@ std::string_view word_at(std::string_view text, std::size_t at) {
   return text.substr(at, end - at);
 }
 
+std::size_t end_of_string(std::string_view text, std::size_t at) {
+  std::vector<char> open;  // quotes and braces
+  for (; at < text.size() && text[at] != '\n'; ++at) {
+    char c = text[at];
+    bool in_string = !open.empty() && open.back() == '"';
+    if (c == '\\' && in_string) {
+      if (at + 1 < text.size() && text[at + 1] != '\n') ++at;
+    } else if (c == '"' && in_string) {
+      open.pop_back();
+    } else if (c == '"' || c == '{') {
+      open.push_back(c);
+    } else if (c == '}' && !in_string) {
+      open.pop_back();
+    }
+    if (open.empty()) return at + 1;
+  }
+  return at;
+}
+
 int edit_distance(std::string_view a, std::string_view b) {
   std::vector<int> before_last, last(b.size() + 1), row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) row[j] = static_cast<int>(j);
@@ -105,7 +124,8 @@ int edit_distance(std::string_view a, std::string_view b) {
 }
 
 std::string closest_word(std::string_view word, const std::vector<std::string_view>& candidates) {
-  constexpr std::size_t kLongestWord = 64;  // a longer word is no misspelling, and the table above is quadratic
+  constexpr std::size_t kLongestWord =
+      64;  // a longer word is no misspelling, and the table above is quadratic
   if (word.size() > kLongestWord) return {};
   std::string_view best;
   int best_distance = std::max<int>(1, static_cast<int>(word.size()) / 3) + 1;
