@@ -119,7 +119,7 @@ class Namer {
   std::string sewn_name(int p, const EdgePlace& edge) const {
     const PanelPlace& panel = place_.panels[p];
     int q = edge.partner_panel;
-    if (q == p) return "join";
+    if (q == p) return "tube";
     Kind a = kinds_[p], b = kinds_[q];
     bool upper = edge.middle.y() > panel.center().y();
     if (a == Kind::sleeve && b == Kind::sleeve) return upper ? "overarm" : "underarm";
@@ -196,7 +196,7 @@ class Namer {
     if (first == "cap" || second == "cap") first = second = "armhole";
     if (first == "upper" || first == "lower") first = second;
     if (second == "upper" || second == "lower") second = first;
-    if (first == "upper" || first == "lower" || first != second || first == "join")
+    if (first == "upper" || first == "lower" || first != second || first == "tube")
       return fmt::format("{}_{}", panel_name(a.panel), panel_name(b.panel));
     double x = side_of(a) + side_of(b);
     if (!first.starts_with("center") && std::abs(x) > 0.04) return first + (x > 0 ? "_left" : "_right");

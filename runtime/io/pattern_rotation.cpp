@@ -65,7 +65,12 @@ Vector3d angles_zyx(const Matrix3d& R) {
   // agree with it.
   double s = portable::sin(x), c = portable::cos(x);
   double z = portable::atan2(s * R(0, 2) - c * R(0, 1), c * R(1, 1) - s * R(1, 2));
-  return Vector3d(x, y, z) * kDegrees;
+  // The same turn has a second set of angles; (0, 180, 0) reads better than (180, 0, 180).
+  Vector3d angles = Vector3d(x, y, z) * kDegrees;
+  auto opposite = [](double a) { return a > 0 ? a - 180 : a + 180; };
+  Vector3d other(opposite(angles.x()), y >= 0 ? 180 - angles.y() : -180 - angles.y(), opposite(angles.z()));
+  if (other.y() <= -180) other.y() += 360;
+  return other.cwiseAbs().sum() < angles.cwiseAbs().sum() - 1e-9 ? other : angles;
 }
 
 }  // namespace garment::io

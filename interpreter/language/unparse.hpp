@@ -1,0 +1,26 @@
+#pragma once
+// Declared garment -> script text that declares it again.
+#include <string>
+#include <vector>
+
+#include "runtime/design/garment.hpp"
+
+namespace garment::interpreter {
+
+struct UnparseOptions {
+  std::string title;                  ///< empty: the garment's own
+  std::vector<std::string> comments;  ///< lines at the top, without `#`
+  /// Right side of `body NAME = ...` for the bodies that attachments and placements name and the garment does
+  /// not declare: `mesh("body.obj")`, `bodies.woman(size: 40)`. Empty: they stay undeclared.
+  std::string body;
+  std::string fabric;  ///< right side of the first fabric's statement; empty: all its figures
+  std::vector<std::string> acts = {"drape until rest"};  ///< last lines
+};
+
+/// A readable script that evaluates to the same garment: coordinates within 5e-10 m, angles within 1e-9
+/// degrees, seam relations within 1e-12. Laid out as the formatter would. Names that the language keeps for
+/// itself get a `_1` behind them, and the dots of halves become underscores (a panel on the fold comes out
+/// unfolded). A relation that is not a number (sides of whatever lengths) is left out.
+std::string unparse(const design::Garment& garment, const UnparseOptions& options = {});
+
+}  // namespace garment::interpreter

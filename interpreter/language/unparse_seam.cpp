@@ -1,0 +1,79 @@
+#include "interpreter/language/unparse_seam.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace garment::interpreter::text {
+namespace {
+
+using design::EdgePart;
+using Parts = std::vector<EdgePart>;
+
+constexpr double kSliver = 1e-8;  ///< m; shorter rests of an edge are none
+
+bool counter_clockwise(const design::Panel& panel) {
+  double area = 0;
+  for (const design::Edge& edge : panel.edges) area += edge.curve.area_term();
+  return area > 0;
+}
+
+/// True where the part walks its loop counter-clockwise.
+bool with_loop(const design::Garment& garment, const EdgePart& part) {
+  return (part.from < part.to) == counter_clockwise(garment.panels[part.panel]);
+}
+
+void turn_round(Parts& parts) {
+  std::reverse(parts.begin(), parts.end());
+  for (EdgePart& part : parts) std::swap(part.from, part.to);
+}
+
+std::string chain(const design::Garment& garment, const Names& names, const Parts& parts, bool sense) {
+  std::string text;
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    text += fmt::format("{}{}{}", i > 0 ? " + " : "", with_loop(garment, parts[i]) == sense ? "" : "-",
+                        edge_part(garment, names, parts[i]));
+  return text;
+}
+
+/// " ease 5%", " gather 1.8", " stretch 10%" or nothing, for a side that is `ratio` times as long as the
+/// last.
+std::string relation(double ratio) {
+  if (!std::isfinite(ratio) || ratio <= 0 || std::abs(ratio - 1) < 1e-12) return {};
+  if (ratio >= 1.5) return " gather " + number(ratio);
+  if (ratio > 1) return fmt::format(" ease {}%", number(std::round((ratio - 1) * 1e12) / 1e10));
+  return fmt::format(" stretch {}%", number(std::round((1 / ratio - 1) * 1e12) / 1e10));
+}
+
+}  // namespace
+
+std::string edge_part(const design::Garment& garment, const Names& names, const EdgePart& part) {
+  std::string name = fmt::format("{}.{}", names.panels[part.panel], names.edges[part.panel][part.edge]);
+  double from = std::min(part.from, part.to), to = std::max(part.from, part.to);
+  double whole = garment.panels[part.panel].edges[part.edge].curve.length();
+  bool at_start = from <= kSliver, at_end = to >= whole - kSliver;
+  if (at_start && at_end) return name;
+  return fmt::format("{}[{} .. {}]", name, at_start ? "start" : length(from), at_end ? "end" : length(to));
+}
+
+std::string seam(const design::Garment& garment, const Names& names, std::size_t index) {
+  const design::Seam& seam = garment.seams[index];
+  std::vector<Parts> sides;
+  for (const design::SeamSide& side : seam.sides) sides.push_back(side.parts);
+  // The rule walks the first side with its loop; turning all sides round at once changes nothing.
+  if (!sides.empty() && !sides[0].empty() && !with_loop(garment, sides[0][0]))
+    for (Parts& parts : sides) turn_round(parts);
+
+  std::string text = fmt::format("seam {}:", names.seams[index]);
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    if (sides[i].empty()) continue;
+    bool sense = with_loop(garment, sides[i][0]);
+    text += fmt::format("{} {}", i > 0 ? " to" : "", chain(garment, names, sides[i], sense));
+    if (i + 1 < sides.size() && i < seam.ratio.size()) text += relation(seam.ratio[i]);
+    if (i > 0 && sense) text += " reversed";
+  }
+  return text;
+}
+
+}  // namespace garment::interpreter::text

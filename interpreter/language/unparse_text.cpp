@@ -1,0 +1,126 @@
+#include "interpreter/language/unparse_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "interpreter/language/construct_table.hpp"
+#include "interpreter/language/function_table.hpp"
+#include "interpreter/language/units.hpp"
+#include "runtime/base/number.hpp"
+
+namespace garment::interpreter::text {
+namespace {
+
+constexpr std::string_view kExpressionWords[] = {
+    "all", "and",  "bodies", "draped", "else", "end",   "fabrics", "false", "for", "if", "in",
+    "is",  "left", "minus",  "not",    "or",   "right", "start",   "true",  "x",   "y",  "z"};
+constexpr std::string_view kPanelWords[] = {"left", "right", "start", "end", "middle", "at", "resolution"};
+
+template <std::size_t n>
+bool is_one_of(std::string_view word, const std::string_view (&words)[n]) {
+  return std::find(std::begin(words), std::end(words), word) != std::end(words);
+}
+
+std::string rounded(double value, double per_unit) {
+  double scaled = std::round(value * per_unit);
+  // Beyond 2^53 there are no decimals left to round.
+  return format_number(std::abs(scaled) < 9e15 ? scaled / per_unit : value);
+}
+
+}  // namespace
+
+std::string length(double metres) {
+  std::string number = rounded(metres * 100, 1e7);
+  return number == "0" ? number : number + " cm";
+}
+
+std::string point(const design::Point2& p) { return fmt::format("({}, {})", length(p.x()), length(p.y())); }
+
+std::string point(const Eigen::Vector3d& p) {
+  return fmt::format("({}, {}, {})", length(p.x()), length(p.y()), length(p.z()));
+}
+
+std::string angle_deg(double degrees) {
+  std::string number = rounded(degrees, 1e10);
+  return number == "0" ? number : number + " deg";
+}
+
+std::string number(double value) { return format_number(value, 12); }
+
+std::string quoted(std::string_view words) {
+  std::string out = "\"";
+  for (char c : words) {
+    if (c == '"') c = '\'';
+    if (c == '\\') c = '/';
+    if (c == '{') c = '(';
+    if (c == '}') c = ')';
+    out += static_cast<unsigned char>(c) < 0x20 || c == 0x7F ? ' ' : c;
+  }
+  return out + '"';
+}
+
+bool is_kept_word(std::string_view word) {
+  return is_one_of(word, kExpressionWords) || find_construct(word) || find_function(word) || find_unit(word);
+}
+
+bool is_kept_in_panel(std::string_view word) {
+  if (is_one_of(word, kPanelWords) || word == "close" || find_unit(word)) return true;
+  const ConstructRecord* edge = find_construct("edge");
+  return word == "edge" || (edge && find_clause(*edge, word));
+}
+
+std::string fresh_name(std::string_view name, std::string_view fallback, std::set<std::string>& taken,
+                       bool (*kept)(std::string_view)) {
+  std::string base;
+  for (char c : name) {
+    bool word = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+    base += word ? c : '_';
+  }
+  if (base.empty() || (base[0] >= '0' && base[0] <= '9') || base[0] == '_')
+    base = std::string(fallback) + base;
+  std::string candidate = base;
+  for (int n = 1; kept(candidate) || taken.count(candidate) > 0; ++n)
+    candidate = fmt::format("{}_{}", base, n);
+  taken.insert(candidate);
+  return candidate;
+}
+
+Names make_names(const design::Garment& garment) {
+  Names names;
+  std::set<std::string> taken;
+  for (const design::Body& body : garment.bodies)
+    names.bodies.push_back(fresh_name(body.name, "body", taken));
+  std::vector<std::string> used;
+  for (const design::Attachment& attachment : garment.attachments) used.push_back(attachment.body);
+  for (const design::Panel& panel : garment.panels) used.push_back(panel.placement.body);
+  for (const std::string& name : used) {
+    auto same = [&](const design::Body& body) { return body.name == name; };
+    bool declared = std::any_of(garment.bodies.begin(), garment.bodies.end(), same);
+    bool known = std::count(names.undeclared_bodies.begin(), names.undeclared_bodies.end(), name) > 0;
+    if (name.empty() || declared || known) continue;
+    names.undeclared_bodies.push_back(name);
+    taken.insert(name);
+  }
+  for (const design::Fabric& fabric : garment.fabrics)
+    names.fabrics.push_back(fresh_name(fabric.name, "cloth", taken));
+  for (const design::Panel& panel : garment.panels) {
+    names.panels.push_back(fresh_name(panel.name, "panel", taken));
+    std::set<std::string> of_panel;
+    std::vector<std::string>& edges = names.edges.emplace_back();
+    for (const design::Edge& edge : panel.edges)
+      edges.push_back(fresh_name(edge.name, "edge", of_panel, is_kept_in_panel));
+    std::vector<std::string>& darts = names.darts.emplace_back();
+    for (const design::EdgeDart& dart : panel.darts)
+      darts.push_back(fresh_name(dart.name, "dart", of_panel, is_kept_in_panel));
+    std::vector<std::string>& notches = names.notches.emplace_back();
+    for (const design::Notch& notch : panel.notches)
+      notches.push_back(fresh_name(notch.name, "notch", of_panel, is_kept_in_panel));
+  }
+  for (const design::Seam& seam : garment.seams) names.seams.push_back(fresh_name(seam.name, "seam", taken));
+  for (const design::Pin& pin : garment.pins) names.pins.push_back(fresh_name(pin.name, "pin", taken));
+  return names;
+}
+
+}  // namespace garment::interpreter::text
