@@ -37,7 +37,7 @@ void collect(std::size_t n, std::vector<Pair>& out, const Query& query) {
   for (const auto& f : found) out.insert(out.end(), f.begin(), f.end());
 }
 
-float below(double distance) { return static_cast<float>(distance * (1 - 1e-6)); }
+float below(double distance) { return static_cast<float>(std::max(0.0, distance * (1 - 1e-6) - 1e-12)); }
 
 /// The search for pairs at one set of positions.
 struct Search {
@@ -135,13 +135,21 @@ bool Candidates::valid(const std::vector<Vector3d>& x) const {
 void Candidates::exempt(const ContactMesh& mesh, const Tangle& tangle) {
   exempt_.clear();
   if (tangle.empty()) return;
-  // (triangle, point) and (edge, edge) of every hit, sorted, as keys.
+  // Keys (triangle, point) and (edge, edge) of every hit, sorted.
   auto key = [](Index i, Index j) {
     return static_cast<std::uint64_t>(static_cast<std::uint32_t>(i)) << 32 | static_cast<std::uint32_t>(j);
   };
   std::vector<std::uint64_t> vt, ee;
   for (const EdgeHit& hit : tangle.hits) {
-    for (Index end : mesh.edge[hit.edge]) vt.push_back(key(hit.triangle, end));
+    const bool in_cloth = hit.edge < mesh.n_cloth_edges && hit.triangle < mesh.n_cloth_triangles;
+    for (Index end : mesh.edge[hit.edge]) {
+      vt.push_back(key(hit.triangle, end));
+      // Where sheets cross at a small angle an end goes back through a neighbour of the triangle that its
+      // edge cuts.
+      if (!in_cloth) continue;
+      for (Index corner : mesh.triangle[hit.triangle])
+        for (Index t : mesh.point_triangles[corner]) vt.push_back(key(t, end));
+    }
     for (Index e : mesh.triangle_edges[hit.triangle])
       ee.push_back(key(std::min(e, hit.edge), std::max(e, hit.edge)));
   }

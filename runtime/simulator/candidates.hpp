@@ -39,7 +39,9 @@ class Candidates {
   }  ///< no particle can leave the reference farther than this: truncate(), m
   double radius() const { return radius_; }
 
-  /// Takes the pairs that cut each other now out of contact and truncation, and puts all others back.
+  /// Takes the pairs that cut each other now out of contact and truncation, and puts all others back: the edges and
+  /// corners of every hit, between cloth and cloth the triangles around the one that is cut as well, and everything of
+  /// particles inside a body against bodies.
   void exempt(const ContactMesh& mesh, const Tangle& tangle);
 
   const std::vector<Pair>& pairs() const { return pairs_; }

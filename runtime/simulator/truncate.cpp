@@ -198,8 +198,8 @@ TruncateStats truncate(const ContactMesh& mesh, const Candidates& candidates, co
       ++stats.out_of_reach;
     }
     const double cut = (wish[i] - dx[i]).norm();
-    if (cut > 0) ++stats.limited;
-    stats.largest_cut = std::max(stats.largest_cut, cut);
+    if (cut != 0) ++stats.limited;
+    if (cut > stats.largest_cut) stats.largest_cut = cut;
   }
   return stats;
 }

@@ -3,10 +3,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "runtime/base/parallel.hpp"
 #include "runtime/simulator/closest_point.hpp"
+#include "runtime/simulator/contours.hpp"
 
 namespace garment::simulator {
 namespace {
@@ -21,55 +21,6 @@ Vector3d unit(const Vector3d& v) {
 Vector3d capped(const Vector3d& v, double most) {
   const double n = v.norm();
   return n > most ? Vector3d(v * (most / n)) : v;
-}
-
-/// Disjoint sets of particles; the root is the smallest number of its set.
-class Sets {
- public:
-  explicit Sets(Index n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
-  Index root(Index i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(Index i, Index j) {
-    i = root(i);
-    j = root(j);
-    parent_[std::max(i, j)] = std::min(i, j);
-  }
-
- private:
-  std::vector<Index> parent_;
-};
-
-/// The pieces into which the cutting edges divide the cloth. A piece of less than half of its cloth is
-/// astray: it has gone through and must come back (Baraff, Witkin, Kass 2003, Untangling cloth, where paths
-/// are filled likewise).
-struct Pieces {
-  std::vector<Index> piece;          // per particle: smallest particle of its piece
-  std::vector<std::uint8_t> astray;  // per particle
-};
-
-Pieces divide(const ContactMesh& mesh, const Tangle& tangle) {
-  std::vector<std::uint8_t> cut(mesh.n_cloth_edges, 0);
-  for (const EdgeHit& hit : tangle.hits)
-    if (hit.edge < mesh.n_cloth_edges && hit.triangle < mesh.n_cloth_triangles) cut[hit.edge] = 1;
-  const Index n = mesh.n_particles;
-  Sets whole(n), parts(n);
-  for (Index e = 0; e < mesh.n_cloth_edges; ++e) {
-    whole.join(mesh.edge[e][0], mesh.edge[e][1]);
-    if (!cut[e]) parts.join(mesh.edge[e][0], mesh.edge[e][1]);
-  }
-  std::vector<Index> of_whole(n, 0), of_part(n, 0);
-  for (Index i = 0; i < n; ++i) {
-    ++of_whole[whole.root(i)];
-    ++of_part[parts.root(i)];
-  }
-  Pieces out{std::vector<Index>(n), std::vector<std::uint8_t>(n)};
-  for (Index i = 0; i < n; ++i) {
-    out.piece[i] = parts.root(i);
-    out.astray[i] = 2 * of_part[out.piece[i]] < of_whole[whole.root(i)] ? 1 : 0;
-  }
-  return out;
 }
 
 /// Displacements that are asked of a particle from several sides: the mean counts.
@@ -98,21 +49,24 @@ class Untangler {
         tangle_(tangle),
         o_(options),
         cloth_(x.size()),
-        body_(x.size()) {}
+        body_(x.size()),
+        went_back_(x.size(), 0) {}
 
   void run(std::vector<Vector3d>& dx) {
     leave_bodies();
-    const Pieces pieces = divide(mesh_, tangle_);
-    std::vector<Vector3d> way_back(x_.size(),
-                                   Vector3d::Zero());  // by piece: mean direction of its cutting edges
-    for (const EdgeHit& hit : tangle_.hits) {
-      if (hit.edge >= mesh_.n_cloth_edges) {
+    const Contours contours = find_contours(mesh_, x_, tangle_);
+    std::vector<Vector3d> way_back(contours.n,
+                                   Vector3d::Zero());  // by contour: sum over its edges that go back
+    for (std::size_t k = 0; k < tangle_.hits.size(); ++k) {
+      const EdgeHit& hit = tangle_.hits[k];
+      if (hit.edge >= mesh_.n_cloth_edges)
         pierced_by_body(hit);
-      } else if (hit.triangle >= mesh_.n_cloth_triangles) {
+      else if (hit.triangle >= mesh_.n_cloth_triangles)
         cuts_body(hit);
-      } else if (!retreat(hit, pieces, way_back)) {
+      else if (contours.astray[k] >= 0)
+        way_back[contours.contour[k]] += retreat(hit, contours.astray[k]);
+      else
         shorten_contour(hit);
-      }
     }
     dx.assign(x_.size(), Vector3d::Zero());
     for (std::size_t k = 0; k < x_.size(); ++k) {
@@ -120,10 +74,10 @@ class Untangler {
       // Out of the body comes first: cloth can only be put in order outside.
       if (body_.any(i))
         dx[i] = capped(body_.mean(i), o_.step);
+      else if (contours.region[i] >= 0 && !went_back_[i])
+        dx[i] = o_.step * unit(way_back[contours.region[i]]);
       else if (cloth_.any(i))
         dx[i] = capped(cloth_.mean(i), o_.step);
-      else if (pieces.astray[i])
-        dx[i] = o_.step * unit(way_back[pieces.piece[i]]);
     }
   }
 
@@ -196,17 +150,17 @@ class Untangler {
     for (Index corner : c) body_.add(corner, (depth + 0.5 * o_.body_offset) * normal);
   }
 
-  /// An edge between a piece that is astray and the rest goes back through the triangle, which gives way.
-  bool retreat(const EdgeHit& hit, const Pieces& pieces, std::vector<Vector3d>& way_back) {
-    Index out = mesh_.edge[hit.edge][0], stays = mesh_.edge[hit.edge][1];
-    if (pieces.piece[out] == pieces.piece[stays] || pieces.astray[out] == pieces.astray[stays]) return false;
-    if (!pieces.astray[out]) std::swap(out, stays);
+  /// The end of an edge that has gone through a triangle goes back, the triangle gives way. Returns the
+  /// direction.
+  Vector3d retreat(const EdgeHit& hit, Index astray) {
+    const Indices<2>& e = mesh_.edge[hit.edge];
+    const Index stays = e[0] == astray ? e[1] : e[0];
     const Vector3d normal = normal_of(hit.triangle);
-    const Vector3d direction = normal.dot(at(stays) - at(out)) < 0 ? Vector3d(-normal) : normal;
-    cloth_.add(out, o_.step * direction);
+    const Vector3d direction = normal.dot(at(stays) - at(astray)) < 0 ? Vector3d(-normal) : normal;
+    cloth_.add(astray, o_.step * direction);
+    went_back_[astray] = 1;
     for (Index corner : mesh_.triangle[hit.triangle]) cloth_.add(corner, -0.5 * o_.step * direction);
-    way_back[pieces.piece[out]] += direction;
-    return true;
+    return direction;
   }
 
   Vector3d normal_of(Index t) const {
@@ -252,6 +206,7 @@ class Untangler {
   const Tangle& tangle_;
   const UntangleOptions& o_;
   Wishes cloth_, body_;
+  std::vector<std::uint8_t> went_back_;  // per particle: an end that retreats
 };
 
 }  // namespace

@@ -36,10 +36,11 @@ struct UntangleOptions {
 
 /// Sets `dx` [n_particles] to displacements that reduce the tangle (zero for particles that have no part in
 /// it). Particles inside a body, or closer than the offset on a triangle or edge that cuts it, move along the
-/// closest surface normal to the offset. Where cloth cuts cloth, each cutting edge and triangle move along
-/// the direction that shortens the contour of the intersection (Volino & Magnenat-Thalmann 2006, Resolving
-/// surface collisions through intersection contour minimization). Call, truncate() with the tangle exempt,
-/// add, repeat. Returns `tangle.size()`.
+/// closest surface normal to the offset. Where cloth cuts cloth, the smaller part that has gone through comes
+/// back (contours.hpp) and the other gives way; edges of the contour that are no part of this move along the
+/// direction that shortens it (Volino & Magnenat-Thalmann 2006, Resolving surface collisions through
+/// intersection contour minimization). Call, truncate() with the tangle exempt, add, repeat. Returns
+/// `tangle.size()`.
 std::size_t untangle_displacements(const ContactMesh& mesh, const std::vector<body::Body>& bodies,
                                    const std::vector<Vector3d>& x, const Tangle& tangle,
                                    std::vector<Vector3d>& dx, const UntangleOptions& options = {});
