@@ -20,8 +20,8 @@ struct ModelResult {
   Findings findings;
 };
 
-/// Grids every panel, closes darts, sews (merges) the seams, gives masses, springs and bending stencils, places the
-/// garment on its bodies. `bodies` are the built bodies of `garment.bodies`, in the same order.
+/// Grids every panel, closes darts, sews (merges) the seams, gives masses, springs and bending stencils,
+/// places the garment on its bodies. `bodies` are the built bodies of `garment.bodies`, in the same order.
 ModelResult build_model(const design::Garment& garment, const std::vector<body::Body>& bodies,
                         const ModelOptions& options = {});
 

@@ -1,0 +1,244 @@
+#include "runtime/modeller/bending.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <queue>
+
+#include "runtime/base/parallel.hpp"
+#include "runtime/modeller/chart.hpp"
+
+namespace garment::modeller {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector2d;
+using model::Index;
+
+/// Area that a stencil answers for, by the panel it comes from.
+struct PanelArea {
+  Index panel;
+  double area;
+};
+using Areas = std::vector<PanelArea>;
+
+void add_area(Areas& areas, Index panel, double area) {
+  for (PanelArea& a : areas) {
+    if (a.panel == panel) {
+      a.area += area;
+      return;
+    }
+  }
+  areas.push_back({panel, area});
+}
+
+double total(const Areas& areas) {
+  double sum = 0;
+  for (const PanelArea& a : areas) sum += a.area;
+  return sum;
+}
+
+/// Grid neighbours of a vertex whose four cells are full: west, east (weft), south, north (warp).
+struct GridStencil {
+  std::array<Index, 4> cell{-1, -1, -1, -1};  // cell in which the vertex is corner k
+  bool complete() const { return *std::min_element(cell.begin(), cell.end()) >= 0; }
+};
+
+std::vector<GridStencil> grid_stencils(const model::Model& model) {
+  std::vector<GridStencil> stencils(model.n_particles());
+  std::vector<char> twice(model.n_particles(), 0);
+  for (std::size_t c = 0; c < model.cell.size(); ++c)
+    for (int k = 0; k < 4; ++k) {
+      Index& slot = stencils[model.cell[c][k]].cell[k];
+      if (slot >= 0) twice[model.cell[c][k]] = 1;
+      slot = static_cast<Index>(c);
+    }
+  std::vector<Index> panel(model.n_particles(),
+                           -1);  // merged particles have vertices in several places: no grid there
+  for (std::size_t v = 0; v < model.n_vertices(); ++v) {
+    Index& seen = panel[model.vertex_particle[v]];
+    if (seen >= 0) twice[model.vertex_particle[v]] = 1;
+    seen = model.vertex_panel[v];
+  }
+  for (std::size_t i = 0; i < stencils.size(); ++i)
+    if (twice[i]) stencils[i] = {};
+  return stencils;
+}
+
+/// Plate matrix, in (11, 22, 12), of a cloth whose warp runs along the unit vector `warp` of the chart.
+Matrix3d plate_matrix(const design::Fabric& fabric, const Vector2d& warp) {
+  double c = warp.x(), s = warp.y();
+  Matrix3d turn;
+  turn << c * c, s * s, 2 * s * c, s * s, c * c, -2 * s * c, -s * c, s * c, c * c - s * s;
+  Eigen::Vector3d own(fabric.bending_rigidity[0], fabric.bending_rigidity[1], 4 * twist_rigidity(fabric));
+  return turn.transpose() * own.asDiagonal() * turn;
+}
+
+/// A fitted stencil with the plate matrix of each panel that meets at its particle.
+struct Fit {
+  CurvatureFit curvature;
+  std::vector<std::pair<Index, Matrix3d>> plate;
+};
+
+/// Adds the plate matrices of the panels in the chart's fan: the area mean over each panel's triangles.
+void add_plates(const Sheet& sheet, const std::vector<MeshedPanel>& panels, const model::Model& model,
+                const Chart& chart, Fit& fit) {
+  std::vector<double> area;
+  for (std::size_t k = 0; k < chart.fan.size(); ++k) {
+    const FanTriangle& f = chart.fan[k];
+    const model::Indices<3>& v = sheet.vertex[f.triangle];
+    Index panel = model.triangle_panel[f.triangle];
+    Vector2d o = model.vertex_uv[v[f.centre]];
+    Eigen::Matrix2d rest, laid;
+    rest << model.vertex_uv[v[f.here]] - o, model.vertex_uv[v[f.ahead]] - o;
+    laid << chart.fan_at[k][0], chart.fan_at[k][1];
+    Vector2d warp = (laid * rest.inverse() * panels[panel].frame.warp()).normalized();
+    double weight = std::abs(rest.determinant());
+    std::size_t slot = 0;
+    while (slot < fit.plate.size() && fit.plate[slot].first != panel) ++slot;
+    if (slot == fit.plate.size()) {
+      fit.plate.emplace_back(panel, Matrix3d::Zero());
+      area.push_back(0);
+    }
+    fit.plate[slot].second += weight * plate_matrix(*panels[panel].fabric, warp);
+    area[slot] += weight;
+  }
+  for (std::size_t slot = 0; slot < area.size(); ++slot) fit.plate[slot].second /= area[slot];
+}
+
+std::vector<Fit> make_fits(const Sheet& sheet, const std::vector<MeshedPanel>& panels,
+                           const model::Model& model, const std::vector<Index>& at) {
+  std::vector<Fit> fits(at.size());
+  parallel_for(at.size(), 64, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      std::optional<Chart> chart = develop(sheet, model, at[k], 2);
+      if (!chart) continue;
+      fits[k].curvature = fit_curvature(*chart, at[k]);
+      if (!fits[k].curvature.complete) {
+        chart = develop(sheet, model, at[k], 3);
+        fits[k].curvature = fit_curvature(*chart, at[k]);
+      }
+      add_plates(sheet, panels, model, *chart, fits[k]);
+    }
+  });
+  return fits;
+}
+
+/// Moves the area of particles without a stencil towards the nearest that have one, split evenly where ways
+/// are equally short, so that symmetric garments stay symmetric.
+void hand_over_areas(const Sheet& sheet, const model::Model& model, const std::vector<char>& has_stencil,
+                     std::vector<Areas>& areas) {
+  constexpr double kNever = 1e300;
+  std::size_t n = sheet.n_particles();
+  std::vector<double> distance(n, kNever);
+  using Entry = std::pair<double, Index>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!has_stencil[i]) continue;
+    distance[i] = 0;
+    queue.push({0, static_cast<Index>(i)});
+  }
+  auto for_each_neighbour = [&](Index i, const auto& f) {
+    for (Index c = sheet.first[i]; c < sheet.first[i + 1]; ++c) {
+      auto [t, k] = sheet.corner[c];
+      for (int other : {(k + 1) % 3, (k + 2) % 3}) {
+        double length =
+            (model.vertex_uv[sheet.vertex[t][k]] - model.vertex_uv[sheet.vertex[t][other]]).norm();
+        f(sheet.particle[t][other], length);
+      }
+    }
+  };
+  std::vector<Index> order;
+  while (!queue.empty()) {
+    auto [d, i] = queue.top();
+    queue.pop();
+    if (d > distance[i]) continue;
+    if (!has_stencil[i]) order.push_back(i);
+    for_each_neighbour(i, [&](Index j, double length) {
+      if (d + length >= distance[j]) return;
+      distance[j] = d + length;
+      queue.push({distance[j], j});
+    });
+  }
+  for (std::size_t k = order.size(); k-- > 0;) {
+    Index i = order[k];
+    std::vector<Index> towards;
+    for_each_neighbour(i, [&](Index j, double length) {
+      if (distance[j] < distance[i] && distance[j] + length <= distance[i] * (1 + 1e-9) &&
+          std::find(towards.begin(), towards.end(), j) == towards.end())
+        towards.push_back(j);
+    });
+    for (Index j : towards)
+      for (const PanelArea& a : areas[i])
+        add_area(areas[j], a.panel, a.area / static_cast<double>(towards.size()));
+    areas[i].clear();
+  }
+}
+
+void add_grid_bending(const std::vector<MeshedPanel>& panels, const std::vector<GridStencil>& stencils,
+                      const std::vector<Areas>& areas, model::Model& model) {
+  for (std::size_t i = 0; i < stencils.size(); ++i) {
+    const GridStencil& s = stencils[i];
+    if (!s.complete()) continue;
+    const auto &ahead = model.cell[s.cell[0]], &behind = model.cell[s.cell[2]];
+    Vector2d h = model.cell_size[s.cell[0]];
+    double area = total(areas[i]);
+    const design::Fabric& fabric = *panels[areas[i].front().panel].fabric;
+    auto at = static_cast<Index>(i);
+    model.bend.push_back({behind[1], at, ahead[3]});
+    model.bend_lengths.emplace_back(h.y(), h.y());
+    model.bend_width.push_back(area / h.y());
+    model.bend_rigidity.push_back(fabric.bending_rigidity[0]);
+    model.bend.push_back({behind[3], at, ahead[1]});
+    model.bend_lengths.emplace_back(h.x(), h.x());
+    model.bend_width.push_back(area / h.x());
+    model.bend_rigidity.push_back(fabric.bending_rigidity[1]);
+    for (Index c : s.cell) model.cell_twist[c] += twist_rigidity(fabric) * area / (4 * h.x() * h.y());
+  }
+}
+
+void add_fit(const Fit& fit, const Areas& areas, model::Model& model) {
+  Matrix3d sum = Matrix3d::Zero(), mean = Matrix3d::Zero();
+  for (const auto& [panel, plate] : fit.plate) mean += plate / static_cast<double>(fit.plate.size());
+  double area = total(areas);
+  for (const PanelArea& a : areas) {
+    const Matrix3d* own = &mean;  // handed over from a panel that does not meet here
+    for (const auto& [panel, plate] : fit.plate)
+      if (panel == a.panel) own = &plate;
+    sum += a.area * *own;
+  }
+  sum /= area;
+  model.fit_particle.insert(model.fit_particle.end(), fit.curvature.particle.begin(),
+                            fit.curvature.particle.end());
+  model.fit_weight.insert(model.fit_weight.end(), fit.curvature.weight.begin(), fit.curvature.weight.end());
+  model.fit_begin.push_back(static_cast<Index>(model.fit_particle.size()));
+  model.fit_area.push_back(area);
+  model.fit_rigidity.push_back({sum(0, 0), sum(1, 1), sum(2, 2), sum(0, 1), sum(0, 2), sum(1, 2)});
+}
+
+}  // namespace
+
+void add_bending(const std::vector<MeshedPanel>& panels, model::Model& model) {
+  Sheet sheet = make_sheet(model);
+  std::vector<GridStencil> grid = grid_stencils(model);
+  std::vector<char> has_stencil(model.n_particles(), 0);
+  std::vector<Index> others;
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    has_stencil[i] = grid[i].complete();
+    if (!has_stencil[i]) others.push_back(static_cast<Index>(i));
+  }
+  std::vector<Fit> fits = make_fits(sheet, panels, model, others);
+  for (std::size_t k = 0; k < others.size(); ++k) has_stencil[others[k]] = !fits[k].plate.empty();
+  std::vector<Areas> areas(model.n_particles());
+  for (std::size_t p = 0; p < panels.size(); ++p)
+    for (std::size_t v = 0; v < panels[p].vertex_area.size(); ++v)
+      add_area(areas[model.vertex_particle[panels[p].first_vertex + v]], static_cast<Index>(p),
+               panels[p].vertex_area[v]);
+  hand_over_areas(sheet, model, has_stencil, areas);
+  add_grid_bending(panels, grid, areas, model);
+  model.fit_begin.assign(1, 0);
+  for (std::size_t k = 0; k < others.size(); ++k)
+    if (has_stencil[others[k]]) add_fit(fits[k], areas[others[k]], model);
+}
+
+}  // namespace garment::modeller

@@ -1,0 +1,223 @@
+#include "runtime/modeller/border.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "runtime/base/parallel.hpp"
+#include "runtime/base/portable_math.hpp"
+
+namespace garment::modeller {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kLeast = 0.55;   // of h: least distance of border particles
+constexpr double kMost = 1.35;    // of h: largest one
+constexpr double kReach = 3.2;    // of h: farthest candidate looked at
+constexpr double kReward = 0.15;  // of a particle on a grid line, in the cost's own measure
+
+/// Where a piece crosses the grid lines: position on the piece, and how squarely (square of the sine).
+std::vector<std::array<double, 2>> grid_crossings(const Piece& piece, const GridFrame& frame) {
+  double h = std::min(frame.hp, frame.hq), length = piece.length();
+  int n = std::max(2, static_cast<int>(std::ceil(length / (h / 8))));
+  auto lines = [&](double t) {
+    Vector2d g = frame.to_grid(piece.at(t));
+    return Vector2d(g.x() / frame.hp, g.y() / frame.hq);
+  };
+  std::vector<std::array<double, 2>> result;
+  for (int axis = 0; axis < 2; ++axis) {
+    double t_before = 0, g_before = std::numeric_limits<double>::quiet_NaN();
+    for (int i = 0; i <= n; ++i) {
+      double t = length * i / n, g = lines(t)[axis];
+      if (std::abs(g - std::floor(g + 0.5)) < 1e-6)
+        continue;  // on a line: a crossing only if it goes on beyond
+      if (!std::isnan(g_before)) {
+        int low = static_cast<int>(std::floor(std::min(g, g_before))),
+            high = static_cast<int>(std::floor(std::max(g, g_before)));
+        for (int line = low + 1; line <= high; ++line) {
+          double a = t_before, b = t, fa = g_before - line, fb = g - line, x = b;
+          for (int step = 0; step < 60 && b - a > 1e-15 * length; ++step) {  // Illinois
+            x = b - fb * (b - a) / (fb - fa);
+            double fx = lines(x)[axis] - line;
+            if (std::abs(fx) < 1e-14) break;
+            if ((fx > 0) == (fb > 0)) {
+              fb = fx;
+              b = x;
+              fa *= 0.5;
+            } else {
+              fa = fx;
+              a = x;
+              fb *= 0.5;
+            }
+          }
+          Vector2d chord = frame.to_grid(piece.at(t)) - frame.to_grid(piece.at(t_before));
+          double square = chord[axis] * chord[axis] / std::max(1e-300, chord.squaredNorm());
+          result.push_back({x, square});
+        }
+      }
+      t_before = t;
+      g_before = g;
+    }
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+/// Cheapest way to cross a gap of x spacings: number of equal steps.
+int steps_for(double x, double& cost) {
+  cost = std::numeric_limits<double>::infinity();
+  int best = 1;
+  for (int k = std::max(1, static_cast<int>(x)); k <= static_cast<int>(x) + 1; ++k) {
+    double step = x / k, c = k * (step - 1) * (step - 1) / step;
+    if (step < kLeast) c += 100 * (kLeast - step);
+    if (step > kMost) c += 10 * (step - kMost);
+    if (c < cost) {
+      cost = c;
+      best = k;
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+std::vector<double> choose_fractions(std::vector<std::array<double, 2>> candidates, double length) {
+  std::sort(candidates.begin(), candidates.end());
+  std::vector<std::array<double, 2>> nodes{{0, 0}};
+  double least = 1e-4 / std::max(1.0, length);
+  for (const auto& c : candidates)
+    if (c[0] > nodes.back()[0] + least && c[0] < 1 - least) nodes.push_back(c);
+  nodes.push_back({1, 0});
+  std::size_t n = nodes.size();
+  std::vector<double> best(n, std::numeric_limits<double>::infinity());
+  std::vector<std::size_t> from(n, 0);
+  best[0] = 0;
+  for (std::size_t j = 1; j < n; ++j) {
+    for (std::size_t i = j; i-- > 0;) {
+      double x = (nodes[j][0] - nodes[i][0]) * length, cost;
+      if (x > kReach && i + 1 < j && best[j] < std::numeric_limits<double>::infinity()) break;
+      steps_for(x, cost);
+      cost += best[i] - kReward * nodes[j][1];
+      if (cost < best[j]) {
+        best[j] = cost;
+        from[j] = i;
+      }
+    }
+  }
+  std::vector<double> result{1};
+  for (std::size_t j = n - 1; j > 0; j = from[j]) {
+    double a = nodes[from[j]][0], b = nodes[j][0], cost;
+    int steps = steps_for((b - a) * length, cost);
+    for (int k = steps - 1; k >= 0; --k) result.push_back(k == 0 ? a : a + (b - a) * k / steps);
+  }
+  std::reverse(result.begin(), result.end());
+  return result;
+}
+
+Point2 GridFrame::weft() const {
+  switch (quarter) {
+    case 1:
+      return {-sin, cos};
+    case 2:
+      return {-cos, -sin};
+    case 3:
+      return {sin, -cos};
+    default:
+      return {cos, sin};
+  }
+}
+
+GridFrame make_frame(const design::Panel& panel, const Outline& outline, double h) {
+  constexpr double kRight = portable::kPi / 2;
+  GridFrame frame;
+  double turns = panel.grain_angle / kRight, nearest = std::floor(turns + 0.5);
+  if (std::abs(turns - nearest) < 1e-9) {
+    frame.quarter = static_cast<int>(nearest - 4 * std::floor(nearest / 4));
+  } else {
+    frame.cos = portable::cos(panel.grain_angle);
+    frame.sin = portable::sin(panel.grain_angle);
+  }
+  frame.symmetric = outline.n_half > 0 && frame.cos == 1;
+  if (frame.symmetric) frame.origin = {*panel.fold_x, 0};
+  Vector2d low(1e300, 1e300), high(-1e300, -1e300);
+  for (const Piece& piece : outline.pieces) {
+    int n = piece.straight() ? 1 : std::max(8, static_cast<int>(std::ceil(piece.length() / (h / 4))));
+    for (int i = 0; i < n; ++i) {
+      Vector2d g = frame.to_grid(piece.at(piece.length() * i / n));
+      low = low.cwiseMin(g);
+      high = high.cwiseMax(g);
+    }
+  }
+  auto divide = [&](double extent) { return extent / std::max(1.0, std::floor(extent / h + 0.5)); };
+  frame.hp = divide(frame.symmetric ? high.x() : high.x() - low.x());
+  frame.hq = divide(high.y() - low.y());
+  Vector2d start(frame.symmetric ? 0.0 : low.x(), low.y());
+  frame.origin = frame.to_panel(start);
+  return frame;
+}
+
+Borders make_borders(const std::vector<BorderPanel>& panels, const std::vector<GridFrame>& frames,
+                     const Matched& matched) {
+  std::vector<std::vector<std::vector<std::array<double, 2>>>> crossings(panels.size());
+  parallel_for(panels.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p)
+      for (const Piece& piece : panels[p].outline.pieces)
+        crossings[p].push_back(grid_crossings(piece, frames[p]));
+  });
+  std::vector<std::vector<std::array<double, 2>>> candidates(matched.n_groups);
+  std::vector<double> spacings(matched.n_groups, 0);
+  for (const Stretch& s : matched.stretches) {
+    const Piece& piece = panels[s.panel].outline.pieces[s.piece];
+    double t0 = piece.breaks[s.lower], t1 = piece.breaks[s.lower + 1];
+    for (const auto& [t, weight] : crossings[s.panel][s.piece]) {
+      if (t <= t0 || t >= t1) continue;
+      double f = (t - t0) / (t1 - t0);
+      candidates[s.group].push_back({s.reversed ? 1 - f : f, weight});
+    }
+    double spacing = std::min(panels[s.panel].h, std::max(frames[s.panel].hp, frames[s.panel].hq));
+    spacings[s.group] = std::max(spacings[s.group], (t1 - t0) / spacing);
+  }
+  std::vector<std::vector<double>> fractions(matched.n_groups);
+  for (int g = 0; g < matched.n_groups; ++g)
+    fractions[g] = choose_fractions(std::move(candidates[g]), spacings[g]);
+
+  Borders borders;
+  borders.panels.resize(panels.size());
+  for (const Stretch& s : matched.stretches) {
+    const Piece& piece = panels[s.panel].outline.pieces[s.piece];
+    Border& border = borders.panels[s.panel];
+    const std::vector<double>& f = fractions[s.group];
+    double t0 = piece.breaks[s.lower], t1 = piece.breaks[s.lower + 1];
+    std::size_t m = f.size() - 1;
+    auto position = [&](std::size_t k) {
+      if (k == m) return t1;
+      return t0 + (t1 - t0) * (s.reversed ? 1 - f[m - k] : f[k]);
+    };
+    borders.stretch_first.push_back(static_cast<int>(border.at.size()));
+    borders.stretch_count.push_back(static_cast<int>(m));
+    const Outline& outline = panels[s.panel].outline;
+    if (frames[s.panel].symmetric && static_cast<std::size_t>(s.piece) == outline.n_half && s.lower == 0)
+      border.half = border.at.size();
+    for (std::size_t k = 0; k < m; ++k) {
+      border.at.push_back(piece.at(position(k)));
+      border.bulge.push_back(piece.bulge(position(k), position(k + 1)));
+      border.piece.push_back(s.piece);
+      border.arc_from.push_back(piece.arc(position(k)));
+      border.arc_to.push_back(piece.arc(position(k + 1)));
+    }
+  }
+  for (std::size_t p = 0; p < panels.size(); ++p) {  // halves: mirror images to the bit
+    Border& border = borders.panels[p];
+    if (border.half == 0) continue;
+    double fold = frames[p].origin.x();
+    std::size_t n = border.at.size();
+    border.at[0].x() = border.at[border.half].x() = fold;
+    for (std::size_t k = 1; k < border.half; ++k)
+      border.at[n - k] = {2 * fold - border.at[k].x(), border.at[k].y()};
+    for (std::size_t k = 0; k < border.half; ++k) border.bulge[n - 1 - k] = border.bulge[k];
+  }
+  return borders;
+}
+
+}  // namespace garment::modeller

@@ -1,0 +1,60 @@
+#pragma once
+// Particles on the outlines: corners always, between them where grid lines meet the border, evenly spaced.
+#include <array>
+#include <vector>
+
+#include "runtime/modeller/matching.hpp"
+
+namespace garment::modeller {
+
+/// The grid of one panel: lines p = i hp and q = j hq in a frame turned by the grain. p is weft and q is
+/// warp, turned on by `quarter` right angles: panels whose grain is a multiple of 90 deg keep the panel's
+/// axes, so that their symmetry about the fold survives to the bit.
+struct GridFrame {
+  Point2 origin{0, 0};
+  double cos = 1, sin = 0;
+  int quarter = 0;  ///< weft is p turned counter-clockwise by this many right angles, 0..3
+  double hp = 0.01, hq = 0.01;
+  bool symmetric = false;  ///< the fold is the line p = 0
+
+  Eigen::Vector2d to_grid(const Point2& x) const {
+    Eigen::Vector2d d = x - origin;
+    return {cos * d.x() + sin * d.y(), cos * d.y() - sin * d.x()};
+  }
+  Point2 to_panel(const Eigen::Vector2d& g) const {
+    return origin + Point2(cos * g.x() - sin * g.y(), sin * g.x() + cos * g.y());
+  }
+  /// Unit directions of weft and warp in panel coordinates.
+  Point2 weft() const;
+  Point2 warp() const { return {-weft().y(), weft().x()}; }
+};
+
+/// Spacings near `h` that divide the panel's extent (from the fold where it is symmetric), lines through its
+/// lowest point.
+GridFrame make_frame(const design::Panel& panel, const Outline& outline, double h);
+
+/// A panel's border particles, counter-clockwise. Segment k runs from vertex k to vertex k + 1.
+struct Border {
+  std::vector<Point2> at;
+  std::vector<double> bulge;  ///< area between segment and curve, positive outside the polygon, m^2
+  std::vector<int> piece;     ///< of segment k
+  std::vector<double> arc_from, arc_to;  ///< ends of segment k as arc lengths on its piece's curve, m
+  std::size_t half =
+      0;  ///< symmetric panels: vertex `half` is the upper fold point, vertex 0 the lower; else 0
+};
+
+struct Borders {
+  std::vector<Border> panels;
+  std::vector<int> stretch_first;  ///< of every stretch: its first vertex in its panel's border
+  std::vector<int> stretch_count;  ///< number of its segments
+};
+
+Borders make_borders(const std::vector<BorderPanel>& panels, const std::vector<GridFrame>& frames,
+                     const Matched& matched);
+
+/// Fractions 0 = f_0 < ... < f_n = 1 for a border `length` grid spacings long: candidates (fraction, weight
+/// 0..1) where they fit, evenly filled between, steps near one spacing and none under 0.55 where the length
+/// allows it.
+std::vector<double> choose_fractions(std::vector<std::array<double, 2>> candidates, double length);
+
+}  // namespace garment::modeller

@@ -1,0 +1,189 @@
+#include "runtime/modeller/elements.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "runtime/base/number.hpp"
+#include "runtime/modeller/tensile_law.hpp"
+
+namespace garment::modeller {
+namespace {
+
+using model::Index;
+
+double cross(const Point2& a, const Point2& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+double triangle_area(const PanelMesh& mesh, const std::array<int, 3>& t) {
+  return 0.5 * cross(mesh.at[t[1]] - mesh.at[t[0]], mesh.at[t[2]] - mesh.at[t[0]]);
+}
+
+void add_springs(const MeshedPanel& p, Index panel_index, Index warp_law, model::Model& model) {
+  struct HalfSide {
+    int u, v;
+    double rest, width;
+    Index law;
+  };
+  std::vector<HalfSide> sides;
+  double h1 = p.mesh.cell_size.x(), h2 = p.mesh.cell_size.y();
+  for (const auto& c : p.mesh.cells) {
+    auto add = [&](int u, int v, double rest, double width, Index law) {
+      sides.push_back({std::min(u, v), std::max(u, v), rest, width, law});
+    };
+    add(c[0], c[1], h1, h2 / 2, warp_law + 1);
+    add(c[3], c[2], h1, h2 / 2, warp_law + 1);
+    add(c[0], c[3], h2, h1 / 2, warp_law);
+    add(c[1], c[2], h2, h1 / 2, warp_law);
+  }
+  std::sort(sides.begin(), sides.end(),
+            [](const HalfSide& a, const HalfSide& b) { return a.u != b.u ? a.u < b.u : a.v < b.v; });
+  const Index* particle = model.vertex_particle.data() + p.first_vertex;
+  for (std::size_t k = 0; k < sides.size(); ++k) {
+    const HalfSide& s = sides[k];
+    if (k > 0 && sides[k - 1].u == s.u && sides[k - 1].v == s.v) {
+      model.spring_width.back() += s.width;
+      continue;
+    }
+    model.spring.push_back({particle[s.u], particle[s.v]});
+    model.spring_rest.push_back(s.rest);
+    model.spring_width.push_back(s.width);
+    model.spring_law.push_back(s.law);
+    model.spring_panel.push_back(panel_index);
+  }
+}
+
+void add_membranes(const MeshedPanel& p, Index panel_index, Index warp_law, model::Model& model) {
+  const Index* particle = model.vertex_particle.data() + p.first_vertex;
+  Point2 warp = p.frame.warp(), weft = p.frame.weft();
+  for (const auto& t : p.mesh.cut) {
+    double area = triangle_area(p.mesh, t);
+    std::array<double, 6> weights{};
+    for (int k = 0; k < 3; ++k) {
+      Point2 opposite = p.mesh.at[t[(k + 2) % 3]] - p.mesh.at[t[(k + 1) % 3]];
+      Point2 gradient = Point2(-opposite.y(), opposite.x()) / (2 * area);
+      weights[k] = gradient.dot(warp);
+      weights[3 + k] = gradient.dot(weft);
+    }
+    model.membrane.push_back({particle[t[0]], particle[t[1]], particle[t[2]]});
+    model.membrane_weights.push_back(weights);
+    model.membrane_area.push_back(area);
+    model.membrane_law.push_back({warp_law, warp_law + 1});
+    model.membrane_shear.push_back(p.fabric->shear_rigidity);
+    model.membrane_panel.push_back(panel_index);
+  }
+}
+
+}  // namespace
+
+double twist_rigidity(const design::Fabric& fabric) {
+  if (fabric.twist_rigidity > 0) return fabric.twist_rigidity;
+  return 0.20 * (fabric.bending_rigidity[0] + fabric.bending_rigidity[1]);
+}
+
+std::vector<double> vertex_areas(const PanelMesh& mesh, const Border& border, double area) {
+  std::vector<double> share(mesh.at.size(), 0);
+  double sum = 0, perimeter = 0;
+  for (const auto& t : mesh.cut) {
+    double a = triangle_area(mesh, t);
+    sum += a;
+    for (int v : t) share[v] += a / 3;
+  }
+  double cell = mesh.cell_size.x() * mesh.cell_size.y();
+  for (const auto& c : mesh.cells) {
+    sum += cell;
+    for (int v : c) share[v] += cell / 4;
+  }
+  std::size_t n = border.at.size();
+  auto length = [&](std::size_t k) { return (border.at[(k + 1) % n] - border.at[k]).norm(); };
+  for (std::size_t k = 0; k < n; ++k) {
+    sum += border.bulge[k];
+    perimeter += length(k);
+  }
+  double rest = (area - sum) / perimeter;  // what quadrature and rounding left over
+  for (std::size_t k = 0; k < n; ++k) {
+    double part = border.bulge[k] + rest * length(k);
+    share[k] += part / 2;
+    share[(k + 1) % n] += part / 2;
+  }
+  return share;
+}
+
+bool add_particles(const design::Garment& garment, const std::vector<MeshedPanel>& panels,
+                   const std::vector<double>& areas, const std::vector<Index>& particle, model::Model& model,
+                   Findings& findings) {
+  bool ok = true;
+  std::size_t n_particles = 0;
+  for (Index i : particle) n_particles = std::max(n_particles, static_cast<std::size_t>(i) + 1);
+  model.vertex_particle = particle;
+  model.mass.assign(n_particles, 0);
+  model.thickness.assign(n_particles, 0);
+  model.friction.assign(n_particles, 0);
+  std::vector<int> shared(n_particles, 0);
+  for (std::size_t i = 0; i < panels.size(); ++i) {
+    const MeshedPanel& p = panels[i];
+    model::PanelRange range;
+    range.name = p.panel->name;
+    range.origin = p.panel->origin;
+    range.first_vertex = p.first_vertex;
+    range.n_vertices = static_cast<Index>(p.mesh.at.size());
+    range.first_triangle = static_cast<Index>(model.triangle.size());
+    range.area = areas[i];
+    range.mass = p.fabric->areal_density * areas[i];
+    range.color = p.fabric->color;
+    for (std::size_t v = 0; v < p.mesh.at.size(); ++v) {
+      Index at = particle[p.first_vertex + v];
+      model.vertex_panel.push_back(static_cast<Index>(i));
+      model.vertex_uv.push_back(p.mesh.at[v]);
+      model.mass[at] += p.fabric->areal_density * p.vertex_area[v];
+      model.thickness[at] = std::max(model.thickness[at], p.fabric->thickness);
+      model.friction[at] += p.fabric->friction;
+      ++shared[at];
+    }
+    std::size_t folded = 0;
+    for (const auto* part : {&p.mesh.cell_halves, &p.mesh.cut}) {
+      for (const auto& t : *part) {
+        model.triangle.push_back({p.first_vertex + t[0], p.first_vertex + t[1], p.first_vertex + t[2]});
+        model.triangle_panel.push_back(static_cast<Index>(i));
+        model::Indices<3> c = model.corners(model.triangle.size() - 1);
+        folded += c[0] == c[1] || c[1] == c[2] || c[2] == c[0];
+      }
+    }
+    range.n_triangles = static_cast<Index>(model.triangle.size()) - range.first_triangle;
+    if (folded > 0) {
+      ok = false;
+      findings.push_back(
+          {"G0551",
+           Severity::error,
+           fmt::format("the seams of panel `{}` close onto {} of its triangles at a grid of {} mm",
+                       p.panel->name, folded, format_number(std::max(p.frame.hp, p.frame.hq) * 1000, 3)),
+           {{p.panel->origin, ""}},
+           "give the panel a finer resolution, or check that the seams sew different edges together"});
+    }
+    model.panels.push_back(std::move(range));
+  }
+  for (std::size_t k = 0; k < n_particles; ++k) model.friction[k] /= shared[k];
+  model.gravity = garment.gravity;
+  return ok;
+}
+
+void add_elements(const design::Garment& garment, const std::vector<MeshedPanel>& panels,
+                  model::Model& model) {
+  for (const design::Fabric& fabric : garment.fabrics)
+    for (const design::Tensile& tensile : fabric.tensile) model.laws.push_back(make_tensile_law(tensile));
+  for (std::size_t i = 0; i < panels.size(); ++i) {
+    const MeshedPanel& p = panels[i];
+    auto panel_index = static_cast<Index>(i);
+    auto warp_law = static_cast<Index>(2 * p.panel->fabric);
+    const Index* particle = model.vertex_particle.data() + p.first_vertex;
+    for (const auto& c : p.mesh.cells) {
+      model.cell.push_back({particle[c[0]], particle[c[1]], particle[c[2]], particle[c[3]]});
+      model.cell_size.push_back(p.mesh.cell_size);
+      model.cell_shear.push_back(p.fabric->shear_rigidity);
+      model.cell_twist.push_back(0);
+    }
+    add_springs(p, panel_index, warp_law, model);
+    add_membranes(p, panel_index, warp_law, model);
+  }
+}
+
+}  // namespace garment::modeller

@@ -1,0 +1,165 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/modeller/matching.hpp"
+
+namespace garment::modeller {
+namespace {
+
+constexpr double kSnap = 0.2;   // of h: breaks closer than this are one
+constexpr double kTiny = 1e-7;  // m: shorter sewn lengths are none
+
+/// The break at `t` of a piece: one within `tolerance`, or a new one.
+double break_at(Piece& piece, double t, double tolerance) {
+  auto next = std::lower_bound(piece.breaks.begin(), piece.breaks.end(), t);
+  bool above = next != piece.breaks.end() && *next - t <= tolerance;
+  bool below = next != piece.breaks.begin() && t - *(next - 1) <= tolerance;
+  if (above && below) return *next - t < t - *(next - 1) ? *next : *(next - 1);
+  if (above) return *next;
+  if (below) return *(next - 1);
+  piece.breaks.insert(next, t);
+  return t;
+}
+
+bool is_valid(const design::Garment& garment, const design::EdgePart& part) {
+  return part.panel >= 0 && part.panel < static_cast<int>(garment.panels.size()) && part.edge >= 0 &&
+         part.edge < static_cast<int>(garment.panels[part.panel].edges.size()) && std::isfinite(part.from) &&
+         std::isfinite(part.to);
+}
+
+/// What remains of a part of an edge as drawn once the darts are cut, in walking order.
+std::vector<SideSegment> resolve(const design::EdgePart& part, std::vector<BorderPanel>& panels) {
+  std::vector<SideSegment> segments;
+  BorderPanel& panel = panels[part.panel];
+  double low = std::min(part.from, part.to), high = std::max(part.from, part.to);
+  for (std::size_t k = 0; k < panel.outline.pieces.size(); ++k) {
+    Piece& piece = panel.outline.pieces[k];
+    if (piece.edge != part.edge) continue;
+    double a = std::max(low, std::min(piece.from, piece.to)),
+           b = std::min(high, std::max(piece.from, piece.to));
+    if (b - a <= kTiny) continue;
+    double t_a = break_at(piece, std::clamp(piece.position(a), 0.0, piece.length()), kSnap * panel.h);
+    double t_b = std::clamp(piece.position(b), 0.0, piece.length());
+    double snapped = break_at(piece, t_b, kSnap * panel.h);
+    if (snapped == t_a) snapped = break_at(piece, t_b, 0);  // a part shorter than the snapping distance stays
+    if (snapped == t_a) continue;
+    SideSegment s{part.panel, static_cast<int>(k), t_a, snapped, 0};
+    if (part.from > part.to) std::swap(s.t0, s.t1);
+    segments.push_back(s);
+  }
+  auto arc = [&](const SideSegment& s) { return panel.outline.pieces[s.piece].arc(s.t0); };
+  std::sort(segments.begin(), segments.end(), [&](const SideSegment& x, const SideSegment& y) {
+    return part.from < part.to ? arc(x) < arc(y) : arc(x) > arc(y);
+  });
+  return segments;
+}
+
+void finish(Side& side) {
+  side.length = 0;
+  for (SideSegment& s : side.segments) {
+    s.begin = side.length;
+    side.length += s.length();
+  }
+}
+
+void collect_seam(const design::Garment& garment, const design::Seam& seam, std::vector<BorderPanel>& panels,
+                  std::vector<Matching>& result, Findings& findings) {
+  Matching matching;
+  matching.name = seam.name;
+  matching.origin = seam.origin;
+  for (const design::SeamSide& declared : seam.sides) {
+    Side side;
+    for (const design::EdgePart& part : declared.parts) {
+      if (!is_valid(garment, part)) {
+        findings.push_back({"G0550",
+                            Severity::error,
+                            fmt::format("a side of seam `{}` names an edge that does not exist", seam.name),
+                            {{declared.origin.value ? declared.origin : seam.origin, ""}},
+                            "name edges of declared panels"});
+        return;
+      }
+      for (const SideSegment& s : resolve(part, panels)) side.segments.push_back(s);
+    }
+    finish(side);
+    if (side.length <= kTiny) {
+      findings.push_back({"G0550",
+                          Severity::error,
+                          fmt::format("a side of seam `{}` has no length to sew", seam.name),
+                          {{declared.origin.value ? declared.origin : seam.origin, ""}},
+                          "sew a part of an edge that has length and is not taken in by a dart"});
+      return;
+    }
+    matching.sides.push_back(std::move(side));
+  }
+  if (matching.sides.size() < 2) {
+    findings.push_back({"G0550",
+                        Severity::error,
+                        fmt::format("seam `{}` has {} side", seam.name, matching.sides.size()),
+                        {{seam.origin, ""}},
+                        "a seam joins two sides or more"});
+    return;
+  }
+  result.push_back(std::move(matching));
+}
+
+void collect_darts(std::vector<BorderPanel>& panels, std::vector<Matching>& result) {
+  for (std::size_t p = 0; p < panels.size(); ++p) {
+    const std::vector<Piece>& pieces = panels[p].outline.pieces;
+    for (std::size_t k = 0; k < pieces.size(); ++k) {
+      if (pieces[k].dart < 0 || !pieces[k].towards_apex) continue;
+      std::size_t other = (k + 1) % pieces.size();  // the leg back from the apex follows
+      const design::EdgeDart& dart = panels[p].panel->darts[pieces[k].dart];
+      Matching matching;
+      matching.name = panels[p].panel->name + "." + dart.name;
+      matching.origin = dart.origin;
+      int panel = static_cast<int>(p);
+      matching.sides.resize(2);
+      matching.sides[0].segments = {{panel, static_cast<int>(k), 0, pieces[k].length(), 0}};
+      matching.sides[1].segments = {{panel, static_cast<int>(other), pieces[other].length(), 0, 0}};
+      for (Side& side : matching.sides) finish(side);
+      result.push_back(std::move(matching));
+    }
+  }
+}
+
+void collect_halves(std::vector<BorderPanel>& panels, std::vector<Matching>& result) {
+  for (std::size_t p = 0; p < panels.size(); ++p) {
+    const Outline& outline = panels[p].outline;
+    if (outline.n_half == 0) continue;
+    Matching matching;
+    matching.name = panels[p].panel->name;
+    matching.origin = panels[p].panel->origin;
+    matching.merge = matching.report = false;
+    matching.sides.resize(2);
+    int panel = static_cast<int>(p);
+    for (std::size_t k = 0; k < outline.n_half; ++k) {
+      std::size_t other = outline.pieces.size() - 1 - k;
+      matching.sides[0].segments.push_back({panel, static_cast<int>(k), 0, outline.pieces[k].length(), 0});
+      matching.sides[1].segments.push_back(
+          {panel, static_cast<int>(other), outline.pieces[other].length(), 0, 0});
+    }
+    for (Side& side : matching.sides) finish(side);
+    result.push_back(std::move(matching));
+  }
+}
+
+}  // namespace
+
+std::vector<Matching> collect_matchings(const design::Garment& garment, std::vector<BorderPanel>& panels,
+                                        Findings& findings) {
+  std::vector<Matching> result;
+  for (const design::Seam& seam : garment.seams) collect_seam(garment, seam, panels, result, findings);
+  collect_darts(panels, result);
+  collect_halves(panels, result);
+  return result;
+}
+
+void break_at_attachments(const design::Garment& garment, std::vector<BorderPanel>& panels) {
+  for (const design::Attachment& attachment : garment.attachments)
+    for (const design::EdgePart& part : attachment.parts)
+      if (is_valid(garment, part)) resolve(part, panels);
+}
+
+}  // namespace garment::modeller

@@ -1,0 +1,167 @@
+#include "runtime/modeller/modeller.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/base/number.hpp"
+#include "runtime/base/parallel.hpp"
+#include "runtime/modeller/bending.hpp"
+#include "runtime/modeller/holds.hpp"
+#include "runtime/modeller/placement.hpp"
+#include "runtime/modeller/sewing.hpp"
+
+namespace garment::modeller {
+namespace {
+
+using model::Index;
+
+/// A declared garment comes from the interpreter, but also from files and other programs: what is read here
+/// is checked here.
+bool check_inputs(const design::Garment& garment, const ModelOptions& options, Findings& findings) {
+  auto refuse = [&](OriginId origin, std::string message, std::string help) {
+    findings.push_back({"G0452", Severity::error, std::move(message), {{origin, ""}}, std::move(help)});
+  };
+  std::size_t before = findings.size();
+  if (garment.panels.empty()) refuse({}, "the garment has no panels", "declare a panel");
+  for (const design::Panel& panel : garment.panels) {
+    double h = options.resolution > 0 ? options.resolution : panel.resolution;
+    if (panel.fabric < 0 || panel.fabric >= static_cast<int>(garment.fabrics.size()))
+      refuse(panel.origin, fmt::format("panel `{}` has no fabric", panel.name), "name a declared fabric");
+    if (!(h >= 1e-4 && h <= 1))
+      refuse(panel.origin,
+             fmt::format("panel `{}` has a grid of {} mm", panel.name, format_number(h * 1000, 4)),
+             "the grid spacing lies between 0.1 mm and 1 m");
+    if (!std::isfinite(panel.grain_angle) || (panel.fold_x && !std::isfinite(*panel.fold_x)))
+      refuse(panel.origin, fmt::format("panel `{}` has no finite grain or fold", panel.name),
+             "check the panel's values");
+  }
+  for (const design::Fabric& f : garment.fabrics) {
+    bool good = f.areal_density > 0 && f.thickness >= 0 && f.shear_rigidity >= 0 && f.friction >= 0 &&
+                f.twist_rigidity >= 0;
+    for (int k = 0; k < 2; ++k)
+      good = good && f.tensile[k].max_strain > 0 && f.tensile[k].max_force > 0 &&
+             f.tensile[k].linearity > 0 && f.bending_rigidity[k] >= 0 &&
+             std::isfinite(f.tensile[k].max_strain + f.tensile[k].max_force) &&
+             std::isfinite(f.tensile[k].linearity + f.bending_rigidity[k]);
+    if (!good ||
+        !std::isfinite(f.areal_density + f.thickness + f.shear_rigidity + f.friction + f.twist_rigidity))
+      refuse(f.origin, fmt::format("fabric `{}` has a property that is negative, zero or not finite", f.name),
+             "mass, EM, LT and Fm are positive; G, B, T and friction are not negative");
+  }
+  return findings.size() == before;
+}
+
+/// Refuses grids that would not fit, before they are made.
+bool check_size(const std::vector<BorderPanel>& panels, std::size_t most, Findings& findings) {
+  double particles = 0;
+  const BorderPanel* largest = nullptr;
+  double largest_count = 0;
+  for (const BorderPanel& p : panels) {
+    double perimeter = 0;
+    for (const Piece& piece : p.outline.pieces) perimeter += piece.length();
+    double count = p.outline.area / (p.h * p.h) + perimeter / p.h;
+    Eigen::Vector2d low(1e300, 1e300), high(-1e300, -1e300);
+    for (std::size_t k = 0; k < p.outline.pieces.size(); ++k) {
+      low = low.cwiseMin(corner(p.outline, k));
+      high = high.cwiseMax(corner(p.outline, k));
+    }
+    Eigen::Vector2d cells = (high - low) / p.h;
+    count = std::max(count, cells.x() * cells.y() / 16);  // a slanting strip: its grid covers its box
+    particles += count;
+    if (count > largest_count) {
+      largest_count = count;
+      largest = &p;
+    }
+  }
+  if (particles <= static_cast<double>(most)) return true;
+  double factor = std::sqrt(particles / static_cast<double>(most));
+  findings.push_back(
+      {"G0452",
+       Severity::error,
+       fmt::format("the garment needs about {} particles, panel `{}` alone {}; at most {} are allowed",
+                   format_number(particles, 3), largest->panel->name, format_number(largest_count, 3), most),
+       {{largest->panel->origin, ""}},
+       fmt::format("a grid coarser by a factor of {} fits", format_number(factor * 1.05, 2))});
+  return false;
+}
+
+std::vector<BorderPanel> cut_outlines(const design::Garment& garment, const ModelOptions& options,
+                                      Findings& findings) {
+  std::vector<BorderPanel> panels(garment.panels.size());
+  for (std::size_t p = 0; p < panels.size(); ++p) {
+    panels[p].panel = &garment.panels[p];
+    panels[p].h = options.resolution > 0 ? options.resolution : garment.panels[p].resolution;
+    if (std::optional<Outline> outline = cut_outline(garment.panels[p], panels[p].h, findings))
+      panels[p].outline = std::move(*outline);
+  }
+  return panels;
+}
+
+/// Meshes of all panels, in order; empty where one could not be made.
+std::vector<MeshedPanel> mesh_panels(const design::Garment& garment, const std::vector<BorderPanel>& outlines,
+                                     const std::vector<GridFrame>& frames, const Borders& borders,
+                                     Findings& findings) {
+  std::vector<MeshedPanel> panels(outlines.size());
+  std::vector<Findings> found(outlines.size());
+  parallel_for(outlines.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p) {
+      std::optional<PanelMesh> mesh = mesh_panel(outlines[p], frames[p], borders.panels[p], found[p]);
+      if (!mesh) continue;
+      panels[p].panel = outlines[p].panel;
+      panels[p].fabric = &garment.fabrics[outlines[p].panel->fabric];
+      panels[p].frame = frames[p];
+      panels[p].mesh = std::move(*mesh);
+      panels[p].vertex_area = vertex_areas(panels[p].mesh, borders.panels[p], outlines[p].outline.area);
+    }
+  });
+  Index vertices = 0;
+  for (std::size_t p = 0; p < panels.size(); ++p) {
+    findings.insert(findings.end(), found[p].begin(), found[p].end());
+    panels[p].first_vertex = vertices;
+    vertices += static_cast<Index>(panels[p].mesh.at.size());
+  }
+  return panels;
+}
+
+}  // namespace
+
+ModelResult build_model(const design::Garment& garment, const std::vector<body::Body>& bodies,
+                        const ModelOptions& options) {
+  ModelResult result;
+  Findings& findings = result.findings;
+  if (!check_inputs(garment, options, findings)) return result;
+  std::vector<BorderPanel> outlines = cut_outlines(garment, options, findings);
+  if (has_errors(findings) || !check_size(outlines, options.max_particles, findings)) return result;
+  std::vector<Matching> matchings = collect_matchings(garment, outlines, findings);
+  if (has_errors(findings)) return result;
+  break_at_attachments(garment, outlines);
+  Matched matched;
+  if (!match_stretches(matchings, outlines, matched, findings)) return result;
+  std::vector<GridFrame> frames;
+  for (const BorderPanel& p : outlines) frames.push_back(make_frame(*p.panel, p.outline, p.h));
+  Borders borders = make_borders(outlines, frames, matched);
+  std::vector<MeshedPanel> panels = mesh_panels(garment, outlines, frames, borders, findings);
+  if (has_errors(findings)) return result;
+
+  model::Model model;
+  std::vector<Index> first_vertex;
+  std::vector<double> areas;
+  std::size_t n_vertices = 0;
+  for (std::size_t p = 0; p < panels.size(); ++p) {
+    first_vertex.push_back(panels[p].first_vertex);
+    areas.push_back(outlines[p].outline.area);
+    n_vertices += panels[p].mesh.at.size();
+  }
+  std::vector<Index> particle = sew(matchings, matched, borders, first_vertex, n_vertices, model);
+  if (!add_particles(garment, panels, areas, particle, model, findings)) return result;
+  add_elements(garment, panels, model);
+  add_bending(panels, model);
+  if (!place_panels(garment, bodies, model, findings)) return result;
+  add_holds(garment, bodies, outlines, borders, panels, model, findings);
+  if (!has_errors(findings)) result.model = std::move(model);
+  return result;
+}
+
+}  // namespace garment::modeller

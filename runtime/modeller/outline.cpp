@@ -1,0 +1,277 @@
+#include "runtime/modeller/outline.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/base/number.hpp"
+#include "runtime/geometry/gauss.hpp"
+#include "runtime/modeller/crossing.hpp"
+
+namespace garment::modeller {
+namespace {
+
+/// Ends that lie closer than this meet, m: below what any pattern file resolves, far above rounding.
+constexpr double kMeet = 1e-5;
+
+double cross(const Point2& a, const Point2& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+std::string mm(double metres) { return format_number(metres * 1000, 4) + " mm"; }
+
+bool is_finite(const geometry::Curve& c) {
+  return c.start().allFinite() && c.end().allFinite() && std::isfinite(c.length()) &&
+         std::isfinite(c.area_term());
+}
+
+/// A dart in arc lengths of its edge as drawn.
+struct Mouth {
+  int dart;
+  double from, to;
+  Point2 apex;
+};
+
+void report(Findings& findings, const char* code, OriginId origin, std::string message, std::string help) {
+  findings.push_back({code, Severity::error, std::move(message), {{origin, ""}}, std::move(help)});
+}
+
+bool check_loop(const design::Panel& panel, Findings& findings) {
+  if (panel.edges.empty()) {
+    report(findings, "G0454", panel.origin, fmt::format("panel `{}` has no edges", panel.name),
+           "draw its outline");
+    return false;
+  }
+  for (std::size_t i = 0; i < panel.edges.size(); ++i) {
+    const design::Edge& edge = panel.edges[i];
+    const design::Edge& next = panel.edges[(i + 1) % panel.edges.size()];
+    if (!is_finite(edge.curve)) {
+      report(findings, "G0454", edge.origin,
+             fmt::format("edge `{}` of panel `{}` has no finite shape", edge.name, panel.name),
+             "check its points");
+      return false;
+    }
+    double gap = (edge.curve.end() - next.curve.start()).norm();
+    if (!(gap <= kMeet)) {
+      report(findings, "G0454", edge.origin,
+             fmt::format(
+                 "edge `{}` of panel `{}` ends {} from the start of edge `{}`; an outline is one closed loop",
+                 edge.name, panel.name, mm(gap), next.name),
+             "let every edge start where the one before it ends");
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Darts per edge, ascending along it; `left_is_inside` says on which side of the drawn edges the panel lies.
+bool collect_mouths(const design::Panel& panel, bool left_is_inside, std::vector<std::vector<Mouth>>& mouths,
+                    Findings& findings) {
+  mouths.assign(panel.edges.size(), {});
+  for (std::size_t d = 0; d < panel.darts.size(); ++d) {
+    const design::EdgeDart& dart = panel.darts[d];
+    std::size_t e = 0;
+    while (e < panel.edges.size() && panel.edges[e].name != dart.edge) ++e;
+    if (e == panel.edges.size()) {
+      report(findings, "G0453", dart.origin,
+             fmt::format("dart `{}` opens on edge `{}`, which panel `{}` does not have", dart.name, dart.edge,
+                         panel.name),
+             "name an edge of the panel");
+      return false;
+    }
+    const geometry::Curve& curve = panel.edges[e].curve;
+    double from = dart.at - dart.width / 2, to = dart.at + dart.width / 2, length = curve.length();
+    if (!(dart.width > 0) || !(from > -kMeet) || !(to < length + kMeet)) {
+      report(findings, "G0453", dart.origin,
+             fmt::format("the mouth of dart `{}` reaches from {} to {} on edge `{}`, which is {} long",
+                         dart.name, mm(from), mm(to), dart.edge, mm(length)),
+             "move the dart or make it narrower");
+      return false;
+    }
+    from = std::max(from, 0.0);
+    to = std::min(to, length);
+    Point2 tangent = curve.tangent_at(dart.at), inwards(-tangent.y(), tangent.x());
+    if (!left_is_inside) inwards = -inwards;
+    Point2 apex = dart.apex ? *dart.apex : Point2(curve.point_at(dart.at) + dart.depth * inwards);
+    Point2 chord = curve.point_at(to) - curve.point_at(from);
+    double side = cross(chord, apex - curve.point_at(from));
+    if (!apex.allFinite() || !((left_is_inside ? side : -side) > kMeet * chord.norm())) {
+      report(findings, "G0453", dart.origin,
+             fmt::format("the point of dart `{}` does not lie inside panel `{}`", dart.name, panel.name),
+             "give the dart a positive depth, or a point on the panel's side of the edge");
+      return false;
+    }
+    mouths[e].push_back({static_cast<int>(d), from, to, apex});
+  }
+  for (std::vector<Mouth>& on_edge : mouths) {
+    std::sort(on_edge.begin(), on_edge.end(), [](const Mouth& a, const Mouth& b) { return a.from < b.from; });
+    for (std::size_t k = 1; k < on_edge.size(); ++k) {
+      if (on_edge[k].from >= on_edge[k - 1].to - 1e-12) continue;
+      const design::EdgeDart &a = panel.darts[on_edge[k - 1].dart], &b = panel.darts[on_edge[k].dart];
+      report(findings, "G0453", b.origin,
+             fmt::format("the mouths of darts `{}` and `{}` overlap by {}", a.name, b.name,
+                         mm(on_edge[k - 1].to - on_edge[k].from)),
+             "move them apart or make one narrower");
+      return false;
+    }
+  }
+  return true;
+}
+
+Piece make_leg(const Point2& a, const Point2& b, int dart, bool towards_apex) {
+  Piece leg;
+  leg.curve = geometry::Curve(a, b);
+  leg.dart = dart;
+  leg.towards_apex = towards_apex;
+  leg.to = leg.curve.length();
+  return leg;
+}
+
+/// Appends what is left of edge `e`, with its darts, in walking order.
+void append_edge(const design::Panel& panel, int e, bool forward, const std::vector<Mouth>& mouths,
+                 std::vector<Piece>& pieces) {
+  const geometry::Curve& curve = panel.edges[e].curve;
+  double at = forward ? 0 : curve.length();
+  auto walk_to = [&](double arc) {
+    if (std::abs(arc - at) > kMeet) {
+      Piece piece;
+      piece.curve = curve;
+      piece.edge = e;
+      piece.from = at;
+      piece.to = arc;
+      pieces.push_back(std::move(piece));
+    }
+    at = arc;
+  };
+  for (std::size_t k = 0; k < mouths.size(); ++k) {
+    const Mouth& m = mouths[forward ? k : mouths.size() - 1 - k];
+    double near = forward ? m.from : m.to, far = forward ? m.to : m.from;
+    walk_to(near);
+    pieces.push_back(make_leg(curve.point_at(near), m.apex, m.dart, true));
+    pieces.push_back(make_leg(m.apex, curve.point_at(far), m.dart, false));
+    at = far;
+  }
+  walk_to(forward ? curve.length() : 0);
+}
+
+bool mirrors(const Piece& a, const Piece& b, double fold_x) {
+  auto mirror = [&](const Point2& p) { return Point2(2 * fold_x - p.x(), p.y()); };
+  if (std::abs(a.length() - b.length()) > kMeet) return false;
+  for (double f : {0.0, 0.3, 0.5, 1.0})
+    if ((a.at(f * a.length()) - mirror(b.at((1 - f) * b.length()))).norm() > kMeet) return false;
+  return true;
+}
+
+/// Turns the loop so that it starts at the fold, if the panel is symmetric about it.
+void find_half(Outline& outline, double fold_x) {
+  std::size_t n = outline.pieces.size();
+  std::vector<std::size_t> on_fold;
+  for (std::size_t k = 0; k < n; ++k)
+    if (std::abs(corner(outline, k).x() - fold_x) < kMeet) on_fold.push_back(k);
+  if (on_fold.size() != 2 || n % 2 != 0) return;
+  std::size_t first = on_fold[0];
+  if (outline.pieces[first].at(0.5 * outline.pieces[first].length()).x() < fold_x) first = on_fold[1];
+  std::rotate(outline.pieces.begin(), outline.pieces.begin() + static_cast<std::ptrdiff_t>(first),
+              outline.pieces.end());
+  if (std::abs(corner(outline, n / 2).x() - fold_x) >= kMeet) return;
+  for (std::size_t k = 0; k < n / 2; ++k)
+    if (!mirrors(outline.pieces[k], outline.pieces[n - 1 - k], fold_x)) return;
+  outline.n_half = n / 2;
+}
+
+bool check_crossing(const design::Panel& panel, const Outline& outline, double h, Findings& findings) {
+  std::vector<Point2> loop;
+  std::vector<std::size_t> piece_of;
+  for (std::size_t k = 0; k < outline.pieces.size(); ++k) {
+    const Piece& piece = outline.pieces[k];
+    loop.push_back(corner(outline, k));
+    piece_of.push_back(k);
+    if (piece.straight()) continue;
+    std::vector<double> arcs;
+    piece.curve.polyline(h / 50, &arcs);
+    if (piece.from > piece.to) std::reverse(arcs.begin(), arcs.end());
+    for (double arc : arcs) {
+      double t = piece.position(arc);
+      if (t < 1e-3 * h || t > piece.length() - 1e-3 * h) continue;
+      loop.push_back(piece.at(t));
+      piece_of.push_back(k);
+    }
+  }
+  std::optional<Crossing> crossing = find_crossing(loop);
+  if (!crossing) return true;
+  const Piece &a = outline.pieces[piece_of[crossing->first]], &b = outline.pieces[piece_of[crossing->second]];
+  int dart = a.dart >= 0 ? a.dart : b.dart;
+  auto place = [&] {
+    return fmt::format("({}, {}) mm", format_number(crossing->point.x() * 1000, 4),
+                       format_number(crossing->point.y() * 1000, 4));
+  };
+  auto name = [&](const Piece& p) {
+    return p.dart >= 0 ? fmt::format("dart `{}`", panel.darts[p.dart].name)
+                       : fmt::format("edge `{}`", panel.edges[p.edge].name);
+  };
+  if (dart >= 0) {
+    report(findings, "G0453", panel.darts[dart].origin,
+           fmt::format("{} meets {} at {} in panel `{}`: the dart is deeper than its panel", name(a), name(b),
+                       place(), panel.name),
+           "make the dart shorter, or move it");
+  } else {
+    findings.push_back({"G0450",
+                        Severity::error,
+                        fmt::format("the outline of panel `{}` crosses itself at {}: {} and {}", panel.name,
+                                    place(), name(a), name(b)),
+                        {{panel.edges[a.edge].origin, ""}, {panel.edges[b.edge].origin, ""}},
+                        "an outline may not touch or cross itself: move a point, or flatten a curve"});
+  }
+  return false;
+}
+
+}  // namespace
+
+double Piece::bulge(double t0, double t1) const {
+  if (straight()) return 0;
+  Point2 p0 = at(t0);
+  return geometry::integrate(geometry::kGauss8, arc(t0), arc(t1), 0.0, [&](double s) {
+    return 0.5 * cross(curve.point_at(s) - p0, curve.tangent_at(s));
+  });
+}
+
+Point2 corner(const Outline& outline, std::size_t k) { return outline.pieces[k].at(0); }
+
+std::optional<Outline> cut_outline(const design::Panel& panel, double h, Findings& findings) {
+  if (!check_loop(panel, findings)) return std::nullopt;
+  double area = 0;
+  for (const design::Edge& edge : panel.edges) area += edge.curve.area_term();
+  if (!(std::abs(area) > 1e-10)) {
+    report(findings, "G0454", panel.origin,
+           fmt::format("the outline of panel `{}` encloses {} mm^2", panel.name,
+                       format_number(std::abs(area) * 1e6, 3)),
+           "check the order and the signs of its points");
+    return std::nullopt;
+  }
+  bool forward = area > 0;
+  std::vector<std::vector<Mouth>> mouths;
+  if (!collect_mouths(panel, forward, mouths, findings)) return std::nullopt;
+  Outline outline;
+  int n = static_cast<int>(panel.edges.size());
+  for (int k = 0; k < n; ++k) {
+    int e = forward ? k : n - 1 - k;
+    append_edge(panel, e, forward, mouths[e], outline.pieces);
+  }
+  outline.area = std::abs(area);
+  for (int e = 0; e < n; ++e) {
+    const geometry::Curve& curve = panel.edges[e].curve;
+    Piece whole;
+    whole.curve = curve;
+    for (const Mouth& m : mouths[e]) {
+      whole.from = forward ? m.from : m.to;
+      whole.to = forward ? m.to : m.from;
+      Point2 a = whole.at(0), b = whole.at(whole.length());
+      outline.area -= whole.bulge(0, whole.length()) + 0.5 * cross(b - a, m.apex - a);
+    }
+  }
+  if (!check_crossing(panel, outline, h, findings)) return std::nullopt;
+  if (panel.fold_x) find_half(outline, *panel.fold_x);
+  for (Piece& piece : outline.pieces) piece.breaks = {0, piece.length()};
+  return outline;
+}
+
+}  // namespace garment::modeller
