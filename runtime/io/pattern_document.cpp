@@ -47,31 +47,45 @@ std::optional<std::size_t> too_deep_at(std::string_view text, int max_depth) {
   return std::nullopt;
 }
 
-/// Watches the parser: keys that stand twice in one object (the later would silently win), and the order of
-/// panels.
-class KeyWatch {
+/// Walks the text once more for what the value does not keep: keys that stand twice in one object (the later
+/// would silently win), and the order of the panels. Not the parser's own callback: that scans the parent
+/// after every object, which takes minutes on a list of a million.
+class KeyWatch final : public nlohmann::json_sax<json> {
  public:
-  bool operator()(int, json::parse_event_t event, json& parsed) {
-    switch (event) {
-      case json::parse_event_t::object_start:
-        objects_.push_back({});
-        break;
-      case json::parse_event_t::key:
-        on_key(parsed.get_ref<const std::string&>());
-        break;
-      case json::parse_event_t::object_end:
-        objects_.pop_back();
-        break;
-      case json::parse_event_t::array_start:
-        ++arrays_;
-        break;
-      case json::parse_event_t::array_end:
-        --arrays_;
-        break;
-      case json::parse_event_t::value:
-        break;
-    }
+  bool null() override { return true; }
+  bool boolean(bool) override { return true; }
+  bool number_integer(number_integer_t) override { return true; }
+  bool number_unsigned(number_unsigned_t) override { return true; }
+  bool number_float(number_float_t, const string_t&) override { return true; }
+  bool string(string_t&) override { return true; }
+  bool binary(binary_t&) override { return true; }
+  bool start_object(std::size_t) override {
+    objects_.push_back({});
     return true;
+  }
+  bool end_object() override {
+    objects_.pop_back();
+    return true;
+  }
+  bool start_array(std::size_t) override {
+    ++arrays_;
+    return true;
+  }
+  bool end_array() override {
+    --arrays_;
+    return true;
+  }
+  bool key(string_t& key) override {
+    Object& object = objects_.back();
+    object.current = key;
+    if (!object.keys.insert(key).second && !doubled) doubled = key;
+    if (objects_.size() == 3 && arrays_ == 0 && objects_[0].current == "pattern" &&
+        objects_[1].current == "panels")
+      panel_order.push_back(key);
+    return true;
+  }
+  bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception&) override {
+    return false;
   }
 
   std::optional<std::string> doubled;
@@ -82,15 +96,6 @@ class KeyWatch {
     std::set<std::string> keys;
     std::string current;
   };
-
-  void on_key(const std::string& key) {
-    Object& object = objects_.back();
-    object.current = key;
-    if (!object.keys.insert(key).second && !doubled) doubled = key;
-    if (objects_.size() == 3 && arrays_ == 0 && objects_[0].current == "pattern" &&
-        objects_[1].current == "panels")
-      panel_order.push_back(key);
-  }
 
   std::vector<Object> objects_;
   int arrays_ = 0;
@@ -128,7 +133,8 @@ std::optional<PatternDocument> parse_pattern_document(std::string_view text, con
   PatternDocument document;
   KeyWatch watch;
   try {
-    document.root = json::parse(text.begin(), text.end(), std::ref(watch));
+    document.root = json::parse(text.begin(), text.end());
+    json::sax_parse(text.begin(), text.end(), &watch);
   } catch (const json::parse_error& e) {
     LineColumn place = place_of(text, e.byte > 0 ? e.byte - 1 : 0);
     report.error("G0940",

@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "runtime/base/number.hpp"
 #include "runtime/io/pattern_document.hpp"
 
 namespace garment::io {
@@ -14,6 +15,7 @@ namespace {
 using nlohmann::json;
 
 constexpr double kPlainSeam = 2e-3;  ///< m; a seam without a relation may differ by this much
+constexpr int kMaxGather = 10;       ///< largest `gather` of the language
 
 class StitchReader {
  public:
@@ -49,6 +51,12 @@ class StitchReader {
     }
     if (!right_wrong) std::swap(second->from, second->to);
     seams.push_back(seam_of(*first, *second));
+    if (double ratio = seams.back().ratio[0]; ratio > kMaxGather)
+      report_.warning(
+          "G0957",
+          fmt::format("{}: {} and {} differ in length {} times, a seam can state at most {}", where_,
+                      name_of(*first), name_of(*second), format_number(ratio, 4), kMaxGather),
+          "are these the edges that are meant?");
     count(*first);
     count(*second);
   }

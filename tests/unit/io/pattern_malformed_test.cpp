@@ -112,6 +112,7 @@ const Fault kWarnings[] = {
     {"/pattern/panels/front/rotation", "", "G0943", "panel `front`: `rotation` is missing"},
     {"/pattern/panels/front/rotation", "[10, 20, 0]", "G0951", "panel `front`: turned by (10, 20, 0) deg"},
     {"/pattern/panels/front/edges/0/endpoints", "[1, 0]", "G0949", "panel `front`"},
+    {"/pattern/panels/front/vertices/1", "[40, 55]", "G0957", "stitch 0: edge 1 of panel `front`"},
     {"/pattern/stitches/1/0/edge", "1", "G0956", "stitch 1: edge 1 of panel `front`"},
 };
 
@@ -221,6 +222,12 @@ TEST_CASE("sizes of a pattern are bounded") {
   small = {};
   small.limits.max_total = 4;
   CHECK(says(io::read_pattern(many_panels(9), small).findings, "G0944", "more than 4 edges"));
+}
+
+TEST_CASE("a long list of small objects takes no long time") {
+  std::string text = "{\"a\": [{\"k\": 0}";
+  for (int i = 0; i < 300000; ++i) text += ",{\"k\":0}";
+  CHECK(says(io::read_pattern(text + "]}").findings, "G0943", "missing"));
 }
 
 TEST_CASE("one fault many times is said a few times and counted") {
