@@ -36,6 +36,12 @@ constexpr std::array<Lookalike, 16> kLookalikes = {
      {'&', "two conditions are joined by `and`"},
      {'|', "two conditions are joined by `or`"}}};
 
+/// Source text as a message shows it: a mistake may be a megabyte long.
+std::string shorten(std::string_view text) {
+  constexpr std::size_t kLongest = 40;
+  return text.size() <= kLongest ? std::string(text) : std::string(text.substr(0, kLongest)) + "...";
+}
+
 std::string join(const std::vector<std::string>& parts) {
   std::string out;
   for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -72,8 +78,8 @@ std::string ParseState::found(std::size_t at) const {
   if (c == '\n' || c == '#') return "the end of the line";
   if (c == '"') return "a string";
   Span token = found_span(at);
-  std::string_view text = text_.substr(token.begin, std::min<std::size_t>(token.end - token.begin, 40));
-  return fmt::format("{}`{}`", is_digit(c) ? "the number " : "", text);
+  std::string_view text = text_.substr(token.begin, token.end - token.begin);
+  return fmt::format("{}`{}`", is_digit(c) ? "the number " : "", shorten(text));
 }
 
 void ParseState::fail(const Problem& problem, std::size_t at) const {
@@ -130,7 +136,7 @@ SyntaxError ParseState::missing_value(const Problem& problem, std::size_t at) co
   std::string message = fmt::format("expected {} after `{}`, found {}", problem.expected, sign, found(at));
   std::string help;
   if (this->at(at) == '.' && is_digit(this->at(at + 1))) help = "write the digit before the point: 0.5";
-  if (clause_word(at) > 0) help = fmt::format("`{}` begins a clause here", word_at(text_, at));
+  if (clause_word(at) > 0) help = fmt::format("`{}` begins a clause here", shorten(word_at(text_, at)));
   bool is_elsewhere = at >= text_.size() || text_[at] == '\n' || text_[at] == '#' || first_on_line(at);
   if (is_elsewhere && first_on_line(at) && statement_begins(at))
     message = fmt::format("expected {} after `{}`, but the next line begins a new statement",
@@ -149,10 +155,10 @@ SyntaxError ParseState::unknown_unit(std::size_t number_end, std::size_t at) con
       meant.empty() ? "to multiply, write the sign: 2 * width" : fmt::format("did you mean `{}`?", meant);
   std::size_t begin = number_end;
   while (begin > 0 && (is_word_char(text_[begin - 1]) || text_[begin - 1] == '.')) --begin;
-  SyntaxError error =
-      error_at(span(at, at + word.size()), "G0105", fmt::format("unknown unit `{}`", word), "", help);
+  SyntaxError error = error_at(span(at, at + word.size()), "G0105",
+                               fmt::format("unknown unit `{}`", shorten(word)), "", help);
   error.diagnostic.labels[0].text =
-      fmt::format("after the number {}", text_.substr(begin, number_end - begin));
+      fmt::format("after the number {}", shorten(text_.substr(begin, number_end - begin)));
   return error;
 }
 
@@ -214,13 +220,14 @@ SyntaxError ParseState::unknown_statement(std::size_t at) const {
   while (is_word_char(this->at(end)) || (this->at(end) == '.' && is_word_start(this->at(end + 1)))) ++end;
   if (end > at + word.size())
     return error_at(span(at, end), "G0202",
-                    fmt::format("`{}` alone is no statement", text_.substr(at, end - at)),
+                    fmt::format("`{}` alone is no statement", shorten(text_.substr(at, end - at))),
                     "expected `=` after it", "to set a value: name = value");
   std::string meant = keywords_.suggest_keyword(word, allowed_words());
   std::string help = meant.empty() ? "a statement begins with a keyword, or sets a value: name = value"
                                    : fmt::format("did you mean `{}`?", meant);
-  return error_at(found_span(at), "G0201", fmt::format("unknown statement `{}`", word), "unknown keyword",
-                  help);
+  if (this->at(end) == '{') help = "before the `{` of a block stands a blank";
+  return error_at(found_span(at), "G0201", fmt::format("unknown statement `{}`", shorten(word)),
+                  "unknown keyword", help);
 }
 
 SyntaxError ParseState::leftover(std::size_t at) const {

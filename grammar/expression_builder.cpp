@@ -42,17 +42,17 @@ int infix_precedence(std::string_view sign) {
 
 }  // namespace
 
-void ExpressionBuilder::too_deep(Span span) const {
+void ExpressionBuilder::too_deep(Span span, bool fatal) const {
   Diagnostic d{"G0210",
                Severity::error,
                fmt::format("nested more than {} deep", max_depth_),
                {{span, "one level too many"}},
                "name a part with `let` and use the name"};
-  throw SyntaxError{d, span.begin, false};
+  throw SyntaxError{d, span.begin, false, fatal};
 }
 
 void ExpressionBuilder::open(char sign, Span span, Mode mode) {
-  if (openers_.size() >= static_cast<std::size_t>(max_depth_)) too_deep(span);
+  if (openers_.size() >= static_cast<std::size_t>(max_depth_)) too_deep(span, sign == 'b');
   openers_.push_back({sign, span, mode, values_.size(), labels_.size(), {}, span.end});
 }
 

@@ -102,7 +102,7 @@ class ExpressionBuilder {
   void push_node(Expr node, std::size_t base);
   void reduce();
   void flush_text(Opener& opener, std::uint32_t end);
-  [[noreturn]] void too_deep(Span span) const;
+  [[noreturn]] void too_deep(Span span, bool fatal = false) const;
 
   SourceId source_;
   int max_depth_;

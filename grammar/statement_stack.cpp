@@ -41,7 +41,7 @@ void ParseState::begin_statement(Span keyword, std::string_view text, const Keyw
                  fmt::format("nested more than {} deep", max_depth_),
                  {{keyword, "one level too many"}},
                  "state the inner part by itself"};
-    throw SyntaxError{d, keyword.begin, false};
+    throw SyntaxError{d, keyword.begin, false, true};
   }
   Open open;
   open.statement.keyword = {info ? info->info->keyword : std::string(text), keyword};
@@ -107,7 +107,7 @@ void ParseState::close_block(Span brace) {
   bool is_else = open.statement.body.has_value();
   (is_else ? open.statement.else_body : open.statement.body) = std::move(open.children);
   open.children.clear();
-  if (!is_else) open.statement.body_span = cover(open.brace, brace);
+  (is_else ? open.statement.else_span : open.statement.body_span) = cover(open.brace, brace);
 }
 
 void ParseState::report_open_block(const Open& open, std::size_t at) {
@@ -172,8 +172,8 @@ void ParseState::report(SyntaxError error) {
   (error.incomplete ? incomplete_ : final_) = true;
   Span place = error.diagnostic.labels.empty() ? Span{source_, 0, 0} : error.diagnostic.labels[0].span;
   diagnostics_.push_back(std::move(error.diagnostic));
-  if (diagnostics_.size() < kMaxErrors) return;
-  stopped_ = true;
+  stopped_ = error.fatal || diagnostics_.size() >= kMaxErrors;
+  if (!stopped_ || error.fatal) return;
   diagnostics_.push_back({"G0218",
                           Severity::error,
                           fmt::format("too many errors: reading stopped after {}", kMaxErrors),

@@ -11,6 +11,7 @@ struct SyntaxError {
   Diagnostic diagnostic;
   std::uint32_t position = 0;  ///< where reading stopped
   bool incomplete = false;     ///< at the end of the text, where more text could set it right
+  bool fatal = false;          ///< reading does not go on after it
 };
 
 }  // namespace garment::grammar

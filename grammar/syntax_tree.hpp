@@ -80,7 +80,8 @@ struct Statement {
   std::vector<Clause> clauses;  ///< in the order written
   std::optional<Block> body;
   std::optional<Block> else_body;  ///< of `if`
-  Span body_span;
+  Span body_span;  ///< from its { to its }
+  Span else_span;  ///< the same of `else { }`; empty for `else if`
   std::string doc;      ///< text of the `##` lines above, newline-joined
   Span span;            ///< whole statement
   bool broken = false;  ///< had a syntax error; a diagnostic was given; not to be evaluated
