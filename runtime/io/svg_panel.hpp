@@ -1,0 +1,63 @@
+#pragma once
+// One pattern piece as it is drawn: outline with its darts, names, notches, grain, and the letters of its
+// seams.
+#include <string>
+#include <vector>
+
+#include "runtime/design/garment.hpp"
+#include "runtime/io/svg_paper.hpp"
+
+namespace garment::io {
+
+/// A stretch of an edge that a seam takes; both sides of the seam carry the same letter.
+struct SeamTag {
+  std::string letter;
+  int edge = -1;
+  double from = 0, to = 0;  ///< arc lengths in sewing order, m
+};
+
+class SvgPanel {
+ public:
+  /// `facts` are printed under the name.
+  SvgPanel(const design::Panel& panel, std::vector<SeamTag> tags, std::vector<std::string> facts,
+           const std::array<double, 3>& color);
+
+  /// Room it takes, with its letters, mm.
+  Point size() const { return room_.size(); }
+
+  /// Draws it with the upper left corner of its room at `corner`.
+  void draw(SvgPaper& paper, const Point& corner) const;
+
+  /// Outline in mm with darts cut away, y up, in the panel's own coordinates.
+  const std::vector<Point>& outline() const { return outline_; }
+
+ private:
+  struct Placed;
+  struct Dart {
+    int edge;
+    double from, to;         ///< mouth on the edge, m
+    Point start, apex, end;  ///< mm
+    Point middle;            ///< of the mouth, mm
+  };
+
+  void collect_darts();
+  void collect_outline();
+  Point inward(int edge, double at) const;
+  void draw_outline(SvgPaper& paper, const Placed& on) const;
+  void draw_notches(SvgPaper& paper, const Placed& on) const;
+  void draw_edge_names(SvgPaper& paper, const Placed& on) const;
+  void draw_tags(SvgPaper& paper, const Placed& on) const;
+  void draw_middle(SvgPaper& paper, const Placed& on) const;
+  void draw_grain(SvgPaper& paper, const Placed& on, const Point& through) const;
+
+  const design::Panel& panel_;
+  std::vector<SeamTag> tags_;
+  std::vector<std::string> facts_;
+  std::string tint_;
+  double side_ = 1;  ///< +1: the inside lies left of the way the outline is walked
+  std::vector<Dart> darts_;
+  std::vector<Point> outline_;
+  Extent room_;  ///< mm
+};
+
+}  // namespace garment::io
