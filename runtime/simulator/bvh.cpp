@@ -5,11 +5,6 @@ namespace {
 
 float center(const FloatBox& b, int axis) { return b.low[axis] + b.high[axis]; }
 
-double area(const FloatBox& b) {
-  const double x = b.high[0] - b.low[0], y = b.high[1] - b.low[1], z = b.high[2] - b.low[2];
-  return x * y + y * z + z * x;
-}
-
 int widest(const std::vector<FloatBox>& boxes, const std::int32_t* begin, const std::int32_t* end) {
   std::array<float, 3> low{3e38f, 3e38f, 3e38f}, high{-3e38f, -3e38f, -3e38f};
   for (const std::int32_t* i = begin; i != end; ++i)
@@ -27,12 +22,14 @@ int widest(const std::vector<FloatBox>& boxes, const std::int32_t* begin, const 
 
 void Bvh::build(const std::vector<FloatBox>& boxes) {
   nodes_.clear();
+  leaves_.clear();
+  leaf_boxes_.clear();
   order_.resize(boxes.size());
   for (std::size_t i = 0; i < boxes.size(); ++i) order_[i] = static_cast<std::int32_t>(i);
   if (boxes.empty()) return;
   nodes_.reserve(boxes.size());
   split(0, static_cast<std::int32_t>(boxes.size()), boxes);
-  fresh_area_ = fit(boxes);
+  refit(boxes);
 }
 
 void Bvh::split(std::int32_t begin, std::int32_t end, const std::vector<FloatBox>& boxes) {
@@ -50,22 +47,16 @@ void Bvh::split(std::int32_t begin, std::int32_t end, const std::vector<FloatBox
                      });
     split(begin, middle, boxes);
     split(middle, end, boxes);
+  } else {
+    leaves_.push_back(static_cast<std::int32_t>(node));
   }
   nodes_[node].skip = static_cast<std::int32_t>(nodes_.size());
 }
 
-double Bvh::refit(const std::vector<FloatBox>& boxes) {
-  if (nodes_.empty()) return 1;
-  const double now = fit(boxes);
-  return fresh_area_ > 0 ? now / fresh_area_ : 1;
-}
-
-double Bvh::fit(const std::vector<FloatBox>& boxes) {
+void Bvh::refit(const std::vector<FloatBox>& boxes) {
   leaf_boxes_.resize(order_.size());
   for (std::size_t k = 0; k < order_.size(); ++k) leaf_boxes_[k] = boxes[order_[k]];
-  double sum = 0;
-  for (auto i = static_cast<std::int32_t>(nodes_.size()) - 1; i >= 0;
-       --i) {  // children stand behind their parents
+  for (auto i = static_cast<std::int32_t>(nodes_.size()) - 1; i >= 0; --i) {  // children stand behind parents
     Node& node = nodes_[i];
     node.box = FloatBox{};
     if (node.skip == i + 1) {
@@ -74,9 +65,7 @@ double Bvh::fit(const std::vector<FloatBox>& boxes) {
       node.box.grow(nodes_[i + 1].box);
       node.box.grow(nodes_[nodes_[i + 1].skip].box);
     }
-    sum += area(node.box);
   }
-  return sum;
 }
 
 }  // namespace garment::simulator

@@ -52,32 +52,35 @@ class Bvh {
 
   /// Builds the tree over items 0 .. n-1.
   void build(const std::vector<FloatBox>& boxes);
-  /// Takes new boxes for the same items. Returns the summed area of the nodes' boxes, over that after the
-  /// last build: a measure of how far the tree has decayed (1 fresh; build anew above about 1.5).
-  double refit(const std::vector<FloatBox>& boxes);
+  /// Gives the same items new boxes; the tree keeps its shape.
+  void refit(const std::vector<FloatBox>& boxes);
 
   bool empty() const { return nodes_.empty(); }
   std::size_t size() const { return order_.size(); }
-  /// Items in the order of the leaves: neighbours in space are neighbours in the list.
-  const std::vector<std::int32_t>& order() const { return order_; }
-  const FloatBox& bounds() const { return nodes_.front().box; }
 
-  /// Calls found(item) for every item whose box meets `box`, in the order of the leaves; subtrees that lie
-  /// before position `from` of that order are passed over.
+  /// Calls found(item) for every item whose box meets `box`, in the order of the leaves.
   template <class Found>
-  void query(const FloatBox& box, const Found& found, std::int32_t from = 0) const {
-    const auto n = static_cast<std::int32_t>(nodes_.size());
-    for (std::int32_t i = 0; i < n;) {
-      const Node& node = nodes_[i];
-      if (node.end <= from || !node.box.meets(box)) {
-        i = node.skip;
-        continue;
-      }
-      if (node.skip == i + 1)  // leaf
-        for (std::int32_t k = std::max(node.begin, from); k < node.end; ++k)
-          if (leaf_boxes_[k].meets(box)) found(order_[k]);
-      ++i;
-    }
+  void query(const FloatBox& box, const Found& found) const {
+    visit(box, 0, [&](std::int32_t begin, std::int32_t end) {
+      for (std::int32_t k = begin; k < end; ++k)
+        if (leaf_boxes_[k].meets(box)) found(order_[k]);
+    });
+  }
+
+  /// Leaves hold at most kLeafSize items; leaf pairs below are numbered 0 .. n_leaves()-1.
+  std::size_t n_leaves() const { return leaves_.size(); }
+  /// Calls found(i, j) once for every two items that are nearer than `radius` along each axis, the first one
+  /// in `leaf` and the second one in it or behind it.
+  template <class Found>
+  void query_pairs(std::size_t leaf, double radius, const Found& found) const {
+    const Node& own = nodes_[leaves_[leaf]];
+    std::array<FloatBox, kLeafSize> boxes;
+    for (std::int32_t i = own.begin; i < own.end; ++i) boxes[i - own.begin] = leaf_boxes_[i].inflated(radius);
+    visit(own.box.inflated(radius), own.begin, [&](std::int32_t begin, std::int32_t end) {
+      for (std::int32_t i = own.begin; i < own.end; ++i)
+        for (std::int32_t j = std::max(begin, i + 1); j < end; ++j)
+          if (boxes[i - own.begin].meets(leaf_boxes_[j])) found(order_[i], order_[j]);
+    });
   }
 
  private:
@@ -87,12 +90,26 @@ class Bvh {
     std::int32_t skip = 0;            // the node after this subtree
   };
   void split(std::int32_t begin, std::int32_t end, const std::vector<FloatBox>& boxes);
-  double fit(const std::vector<FloatBox>& boxes);
+
+  /// Calls found(begin, end) for the leaves from position `from` on whose boxes meet `box`.
+  template <class Found>
+  void visit(const FloatBox& box, std::int32_t from, const Found& found) const {
+    const auto n = static_cast<std::int32_t>(nodes_.size());
+    for (std::int32_t i = 0; i < n;) {
+      const Node& node = nodes_[i];
+      if (node.end <= from || !node.box.meets(box)) {
+        i = node.skip;
+        continue;
+      }
+      if (node.skip == i + 1) found(node.begin, node.end);
+      ++i;
+    }
+  }
 
   std::vector<Node> nodes_;
   std::vector<std::int32_t> order_;
-  std::vector<FloatBox> leaf_boxes_;  // in the order of the leaves
-  double fresh_area_ = 0;
+  std::vector<std::int32_t> leaves_;  // their nodes
+  std::vector<FloatBox> leaf_boxes_;  // of the items, in the order of the leaves
 };
 
 }  // namespace garment::simulator

@@ -51,7 +51,7 @@ struct Search {
     const Vector3d &p = mesh.at(x, v), &a = mesh.at(x, c[0]), &b = mesh.at(x, c[1]), &d = mesh.at(x, c[2]);
     const TrianglePoint q = closest_on_triangle(p, a, b, d);
     const double squared = (p - q.weights[0] * a - q.weights[1] * b - q.weights[2] * d).squaredNorm();
-    if (squared >= radius * radius) return;
+    if (!(squared < radius * radius)) return;  // nor when a position is not a number
     out.push_back({v, t, static_cast<float>(mesh.contact_distance_vt(v, t)), below(std::sqrt(squared))});
   }
 
@@ -61,7 +61,7 @@ struct Search {
     const Vector3d &a = mesh.at(x, i[0]), &b = mesh.at(x, i[1]), &c = mesh.at(x, j[0]), &d = mesh.at(x, j[1]);
     const SegmentPair s = closest_of_segments(a, b, c, d);
     const double squared = (a - c + s.s * (b - a) - s.t * (d - c)).squaredNorm();
-    if (squared >= radius * radius) return;
+    if (!(squared < radius * radius)) return;  // nor when a position is not a number
     out.push_back({e, f, static_cast<float>(mesh.contact_distance_ee(e, f)), below(std::sqrt(squared))});
   }
 
@@ -82,8 +82,10 @@ void Candidates::rebuild(const ContactMesh& mesh, const std::vector<Vector3d>& x
   pairs_.clear();
   exempt_.clear();
   const std::vector<FloatBox> edge_boxes = boxes_of(mesh, x, mesh.edge, mesh.n_cloth_edges);
-  triangle_tree_.build(boxes_of(mesh, x, mesh.triangle, mesh.n_cloth_triangles));
-  edge_tree_.build(edge_boxes);
+  triangle_tree_ = mesh.cloth_triangle_tree;
+  triangle_tree_.refit(boxes_of(mesh, x, mesh.triangle, mesh.n_cloth_triangles));
+  edge_tree_ = mesh.cloth_edge_tree;
+  edge_tree_.refit(edge_boxes);
   const Search search{mesh, x, radius};
   const auto n_particles = static_cast<std::size_t>(mesh.n_particles);
 
@@ -94,12 +96,10 @@ void Candidates::rebuild(const ContactMesh& mesh, const std::vector<Vector3d>& x
     });
   first_[1] = pairs_.size();
   if (mesh.options.self)
-    collect(edge_tree_.size(), pairs_, [&](std::size_t k, std::vector<Pair>& out) {
-      const Index e = edge_tree_.order()[k];
-      edge_tree_.query(
-          edge_boxes[e].inflated(radius),
-          [&](std::int32_t f) { search.ee(std::min(e, f), std::max(e, f), out); },
-          static_cast<std::int32_t>(k) + 1);
+    collect(edge_tree_.n_leaves(), pairs_, [&](std::size_t leaf, std::vector<Pair>& out) {
+      edge_tree_.query_pairs(leaf, radius, [&](std::int32_t e, std::int32_t f) {
+        search.ee(std::min(e, f), std::max(e, f), out);
+      });
     });
   first_[2] = pairs_.size();
   collect(

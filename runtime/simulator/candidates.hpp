@@ -39,9 +39,9 @@ class Candidates {
   }  ///< no particle can leave the reference farther than this: truncate(), m
   double radius() const { return radius_; }
 
-  /// Takes the pairs that cut each other now out of contact and truncation, and puts all others back: the edges and
-  /// corners of every hit, between cloth and cloth the triangles around the one that is cut as well, and everything of
-  /// particles inside a body against bodies.
+  /// Takes the pairs that cut each other now out of contact and truncation, and puts all others back: the
+  /// edges and corners of every hit, between cloth and cloth the triangles around the one that is cut as
+  /// well, and everything of particles inside a body against bodies.
   void exempt(const ContactMesh& mesh, const Tangle& tangle);
 
   const std::vector<Pair>& pairs() const { return pairs_; }
@@ -56,7 +56,7 @@ class Candidates {
   std::vector<std::uint8_t> exempt_;  // empty: none
   std::vector<Vector3d> reference_;
   double radius_ = 0, slack_ = 0, reach_ = 0;
-  Bvh triangle_tree_, edge_tree_;  // of the cloth; refitted from rebuild to rebuild
+  Bvh triangle_tree_, edge_tree_;  // of the cloth, at the reference
 };
 
 /// Upper bounds of how far each part of the cloth has come from the reference, m: |x - x0| (+ |dx| if given).

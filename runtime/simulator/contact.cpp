@@ -26,7 +26,7 @@ class Finder {
     const Vector3d &p = at(v), &a = at(c[0]), &b = at(c[1]), &d = at(c[2]);
     const TrianglePoint q = closest_on_triangle(p, a, b, d);
     const Vector3d gap = p - q.weights[0] * a - q.weights[1] * b - q.weights[2] * d;
-    if (gap.squaredNorm() >= r * r) return;
+    if (!(gap.squaredNorm() < r * r)) return;
     if (q.feature == Feature::face) add_vt(v, t, q.weights, 1, r, pair);
     for (int k = 0; k < 3; ++k) {
       if (owner(mesh_.edge_triangles[mesh_.triangle_edges[t][k]], v) == t) edge_share(v, t, k, r, pair);
@@ -40,7 +40,7 @@ class Finder {
     const Indices<4> p{mesh_.edge[e][0], mesh_.edge[e][1], mesh_.edge[f][0], mesh_.edge[f][1]};
     const Vector3d &a = at(p[0]), &b = at(p[1]), &c = at(p[2]), &d = at(p[3]);
     const SegmentPair s = closest_of_segments(a, b, c, d);
-    if ((a - c + s.s * (b - a) - s.t * (d - c)).squaredNorm() >= r * r) return;
+    if (!((a - c + s.s * (b - a) - s.t * (d - c)).squaredNorm() < r * r)) return;
     if (s.s <= 0 || s.s >= 1 || s.t <= 0 || s.t >= 1) return;
     std::array<SegmentPair, 4> ends;
     for (int k = 0; k < 2; ++k) {
@@ -100,7 +100,7 @@ class Finder {
     const SegmentPoint s = closest_on_segment(at(v), at(c[k]), at(c[(k + 1) % 3]));
     if (s.feature != Feature::edge_ab) return;
     const Vector3d gap = at(v) - (1 - s.t) * at(c[k]) - s.t * at(c[(k + 1) % 3]);
-    if (gap.squaredNorm() >= r * r) return;
+    if (!(gap.squaredNorm() < r * r)) return;
     int share = 1 - without(mesh_.edge_triangles[edge], v);
     for (Index other : mesh_.edge_triangles[edge])
       if (!has(other, v) && closest_is_edge(v, other, edge)) ++share;
@@ -114,7 +114,7 @@ class Finder {
   /// Euler's count around a corner: triangles - edges + 1, each only where the corner is its closest point.
   void corner_share(Index v, Index t, int k, double r, Index pair) {
     const Index corner = mesh_.triangle[t][k];
-    if ((at(v) - at(corner)).squaredNorm() >= r * r) return;
+    if (!((at(v) - at(corner)).squaredNorm() < r * r)) return;
     int share = 1;
     for (Index other : mesh_.point_triangles[corner])
       if (!has(other, v) && !closest_is_corner(v, other, corner)) --share;

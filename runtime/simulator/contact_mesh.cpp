@@ -61,6 +61,7 @@ ContactMesh::ContactMesh(const model::Model& model, const std::vector<body::Body
   if (!body_point.empty())
     largest_contact_distance = std::max({largest_contact_distance, half, options.body_minimum});
   measure_rest(model);
+  plant_trees(model);
 }
 
 void ContactMesh::add_bodies(const std::vector<body::Body>& bodies) {
@@ -103,6 +104,9 @@ void ContactMesh::connect() {
   }
   point_edges = make_rows(n_points(), edges_at_point);
   edge_triangles = make_rows(edge.size(), at_edge);
+}
+
+void ContactMesh::plant_trees(const model::Model& model) {
   std::vector<FloatBox> boxes(triangle.size() - n_cloth_triangles);
   const std::vector<Vector3d> none;
   for (std::size_t t = 0; t < boxes.size(); ++t)
@@ -112,6 +116,30 @@ void ContactMesh::connect() {
   for (std::size_t e = 0; e < boxes.size(); ++e)
     for (Index p : edge[n_cloth_edges + e]) boxes[e].grow(at(none, p));
   body_edge_tree.build(boxes);
+
+  // Panels lie flat, one far above the other.
+  constexpr double kApart = 100;  // m
+  boxes.assign(n_cloth_triangles, {});
+  std::vector<FloatBox> edge_boxes(n_cloth_edges);
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < model.n_triangles(); ++t) {
+    if (degenerate(model.corners(t))) continue;
+    std::array<Vector3d, 3> flat;
+    for (int k = 0; k < 3; ++k) {
+      const Index v = model.triangle[t][k];
+      flat[k] = {model.vertex_uv[v][0], model.vertex_uv[v][1], kApart * model.vertex_panel[v]};
+      boxes[kept].grow(flat[k]);
+    }
+    for (int k = 0; k < 3; ++k) {
+      const Index e = triangle_edges[kept][k];
+      if (edge_triangles[e].front() != static_cast<Index>(kept)) continue;  // one panel of a seam is enough
+      edge_boxes[e].grow(flat[k]);
+      edge_boxes[e].grow(flat[(k + 1) % 3]);
+    }
+    ++kept;
+  }
+  cloth_triangle_tree.build(boxes);
+  cloth_edge_tree.build(edge_boxes);
 }
 
 void ContactMesh::measure_rest(const model::Model& model) {

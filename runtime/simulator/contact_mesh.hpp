@@ -70,8 +70,11 @@ class ContactMesh {
   /// hat function).
   std::vector<double> point_star, edge_star;
 
-  // Static trees over the bodies' parts; item ids are point, edge, triangle numbers of this mesh.
+  /// Trees over the parts of the bodies, which stay; item i is part n_cloth + i.
   Bvh body_triangle_tree, body_edge_tree;
+  /// Trees over the parts of the cloth as it lies in the flat pattern: cloth that is near there stays near,
+  /// so their shape serves all positions (refit a copy) and never depends on what happened before.
+  Bvh cloth_triangle_tree, cloth_edge_tree;
 
  private:
   double graph_distance(Index i, Index j) const;  // infinite when not near neighbours
@@ -81,6 +84,7 @@ class ContactMesh {
   void add_bodies(const std::vector<body::Body>& bodies);
   void connect();
   void measure_rest(const model::Model& model);
+  void plant_trees(const model::Model& model);
 
   Rows near_;                      // per particle: particles within reach along the edges at rest, ascending
   std::vector<double> near_rest_;  // m, parallel to near_.item

@@ -46,8 +46,8 @@ void find_hits(const ContactMesh& mesh, const std::vector<Vector3d>& x, std::vec
   if (mesh.options.self) {
     std::vector<FloatBox> boxes(mesh.n_cloth_triangles);
     for (std::size_t t = 0; t < boxes.size(); ++t) boxes[t] = box_of(mesh, x, mesh.triangle[t]);
-    Bvh tree;
-    tree.build(boxes);
+    Bvh tree = mesh.cloth_triangle_tree;
+    tree.refit(boxes);
     collect(mesh.n_cloth_edges, out, [&](Index e, std::vector<EdgeHit>& found) {
       tree.query(box_of(mesh, x, mesh.edge[e]), [&](std::int32_t t) {
         if (hit(e, t)) found.push_back({e, t});

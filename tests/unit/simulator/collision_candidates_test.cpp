@@ -162,3 +162,18 @@ TEST_CASE("pairs that cut each other are exempt, the others are not", "[collisio
   candidates.exempt(mesh, {});
   for (std::size_t i = 0; i < candidates.pairs().size(); ++i) CHECK_FALSE(candidates.is_exempt(i));
 }
+
+TEST_CASE("positions that are not numbers make no pairs", "[collision]") {
+  const model::Model m = test::sheet(6, 6, 0.01);
+  const std::vector<body::Body> bodies{test::ball(0.03, {0.025, -0.03, -0.025}, 6, 8)};
+  const ContactMesh mesh(m, bodies);
+  std::vector<Vector3d> x(m.start.size(), Vector3d::Constant(std::nan("")));
+  Candidates candidates;
+  candidates.rebuild(mesh, x, 0.02);
+  CHECK(candidates.pairs().empty());
+  x = m.start;
+  x[14][1] = std::nan("");
+  candidates.rebuild(mesh, x, 0.02);
+  CHECK(candidates.pairs().size() > 100);
+  for (const Pair& pair : candidates.pairs()) CHECK(std::isfinite(pair.distance));
+}
