@@ -30,7 +30,7 @@ struct Skirt {
       const double wave = 14 * s;
       const double angle = s + 0.05 * portable::sin(2 * wave), radius = 0.1225 + 0.002 * portable::cos(wave);
       x.emplace_back(radius * portable::sin(angle), -down, radius * portable::cos(angle));
-      wish.push_back(random.vector(0.002));
+      wish.push_back(random.vector(1e-6));
     }
     mesh = std::make_unique<ContactMesh>(model, bodies);
     candidates.rebuild(*mesh, x, kRadius);
@@ -64,11 +64,12 @@ void walls(benchmark::State& state) {
   TruncateStats stats;
   for (auto _ : state) {
     std::vector<Vector3d> dx = s.wish;
+    for (Vector3d& d : dx) d *= static_cast<double>(state.range(0));  // steps of so many um
     stats = truncate(*s.mesh, s.candidates, s.x, dx);
   }
   state.counters["limited"] = static_cast<double>(stats.limited);
 }
-BENCHMARK(walls)->Unit(benchmark::kMillisecond);
+BENCHMARK(walls)->Arg(200)->Arg(2000)->Unit(benchmark::kMillisecond);
 
 void tangle(benchmark::State& state) {
   Skirt& s = skirt();
