@@ -16,6 +16,7 @@ constexpr double kLeast = 0.55;   // of h: least distance of border particles
 constexpr double kMost = 1.35;    // of h: largest one
 constexpr double kReach = 3.2;    // of h: farthest candidate looked at
 constexpr double kReward = 0.15;  // of a particle on a grid line, in the cost's own measure
+constexpr double kPenalty = 1e4;  // of a step under kLeast
 
 /// Where a piece crosses the grid lines: position on the piece, and how squarely (square of the sine).
 std::vector<std::array<double, 2>> grid_crossings(const Piece& piece, const GridFrame& frame) {
@@ -70,7 +71,7 @@ int steps_for(double x, double& cost) {
   int best = 1;
   for (int k = std::max(1, static_cast<int>(x)); k <= static_cast<int>(x) + 1; ++k) {
     double step = x / k, c = k * (step - 1) * (step - 1) / step;
-    if (step < kLeast) c += 100 * (kLeast - step);
+    if (step < kLeast) c += kPenalty * (1 + kLeast - step);
     if (step > kMost) c += 10 * (step - kMost);
     if (c < cost) {
       cost = c;
@@ -94,9 +95,11 @@ std::vector<double> choose_fractions(std::vector<std::array<double, 2>> candidat
   std::vector<std::size_t> from(n, 0);
   best[0] = 0;
   for (std::size_t j = 1; j < n; ++j) {
+    bool reached = false;  // without any gap under the least
     for (std::size_t i = j; i-- > 0;) {
       double x = (nodes[j][0] - nodes[i][0]) * length, cost;
-      if (x > kReach && i + 1 < j && best[j] < std::numeric_limits<double>::infinity()) break;
+      if (x > kReach && reached) break;
+      reached = reached || (x >= kLeast && best[i] < kPenalty / 2);
       steps_for(x, cost);
       cost += best[i] - kReward * nodes[j][1];
       if (cost < best[j]) {

@@ -14,7 +14,7 @@ double least_sine(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eige
 }
 
 void open_ears(LoopMesh& mesh, std::size_t n_loop) {
-  constexpr double kLeastSine = 0.3;  // about 17 deg
+  constexpr double kLeastSine = 0.35;  // about 20 deg
   int n = static_cast<int>(n_loop);
   auto on_loop = [&](int u, int v) { return u < n && v < n && v == (u + 1) % n; };
   std::map<std::array<int, 2>, std::size_t> side;  // directed side -> triangle

@@ -11,6 +11,7 @@
 #include "runtime/modeller/holds.hpp"
 #include "runtime/modeller/placement.hpp"
 #include "runtime/modeller/sewing.hpp"
+#include "runtime/modeller/twins.hpp"
 
 namespace garment::modeller {
 namespace {
@@ -155,6 +156,7 @@ ModelResult build_model(const design::Garment& garment, const std::vector<body::
     n_vertices += panels[p].mesh.at.size();
   }
   std::vector<Index> particle = sew(matchings, matched, borders, first_vertex, n_vertices, model);
+  part_twins(panels, particle);
   if (!add_particles(garment, panels, areas, particle, model, findings)) return result;
   add_elements(garment, panels, model);
   add_bending(panels, model);

@@ -1,0 +1,182 @@
+// What every mesh must be, on 300 outlines.
+#include <catch2/catch.hpp>
+#include <map>
+#include <set>
+
+#include "runtime/base/parallel.hpp"
+#include "runtime/modeller/modeller.hpp"
+#include "tests/unit/modeller/garments.hpp"
+
+using namespace garment;
+using Eigen::Vector2d;
+
+namespace {
+
+double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+struct Quality {
+  double least_angle = 180;  ///< deg, away from corners of the outline sharper than 45 deg
+  double shortest = 1e9;     ///< side, m
+  bool turned_over = false;
+  int euler = 0;
+  std::set<int> used;
+};
+
+/// Points of the outline where it turns by more than 135 deg.
+std::vector<Vector2d> sharp_corners(const design::Panel& p) {
+  std::vector<Vector2d> result;
+  for (std::size_t e = 0; e < p.edges.size(); ++e) {
+    const geometry::Curve &next = p.edges[e].curve,
+                          &last = p.edges[(e + p.edges.size() - 1) % p.edges.size()].curve;
+    Vector2d out = next.tangent_at(0), back = -last.tangent_at(last.length());
+    double angle = std::atan2(cross(out, back), out.dot(back)) * 57.29577951308232;
+    if (angle >= 0 && angle < 45) result.push_back(next.start());
+  }
+  return result;
+}
+
+Quality quality_of(const model::Model& m, const design::Panel& panel) {
+  Quality q;
+  std::vector<Vector2d> sharp = sharp_corners(panel);
+  std::set<std::array<int, 2>> sides;
+  for (const auto& t : m.triangle) {
+    bool at_sharp = false;
+    for (int v : t)
+      for (const Vector2d& s : sharp) at_sharp = at_sharp || (s - m.vertex_uv[v]).norm() < 1e-9;
+    for (int k = 0; k < 3; ++k) {
+      Vector2d a = m.vertex_uv[t[(k + 1) % 3]] - m.vertex_uv[t[k]],
+               b = m.vertex_uv[t[(k + 2) % 3]] - m.vertex_uv[t[k]];
+      q.turned_over = q.turned_over || !(cross(a, b) > 0);
+      if (!at_sharp)
+        q.least_angle = std::min(q.least_angle, std::atan2(cross(a, b), a.dot(b)) * 57.29577951308232);
+      q.shortest = std::min(q.shortest, a.norm());
+      sides.insert({std::min(t[k], t[(k + 1) % 3]), std::max(t[k], t[(k + 1) % 3])});
+      q.used.insert(t[k]);
+    }
+  }
+  q.euler =
+      static_cast<int>(m.n_vertices()) - static_cast<int>(sides.size()) + static_cast<int>(m.n_triangles());
+  return q;
+}
+
+}  // namespace
+
+TEST_CASE("300 outlines of all kinds of curves give sound meshes of exact mass") {
+  for (int seed = 1; seed <= 300; ++seed) {
+    double h = 0.012 + 0.003 * (seed * 7 % 10);
+    design::Garment g = test::single(test::blob(seed, h));
+    INFO("seed " << seed << " h " << h);
+    modeller::ModelResult result = modeller::build_model(g, {});
+    REQUIRE(result.model);
+    const model::Model& m = *result.model;
+    Quality q = quality_of(m, g.panels[0]);
+    REQUIRE_FALSE(q.turned_over);
+    REQUIRE(q.least_angle > 17);
+    REQUIRE(q.shortest > h / 4);
+    REQUIRE(q.euler == 1);
+    REQUIRE(q.used.size() == m.n_vertices());
+    double exact = 0, mass = 0, stencils = 0, weft = 0;
+    for (const design::Edge& e : g.panels[0].edges) exact += e.curve.area_term();
+    for (double x : m.mass) {
+      REQUIRE(x > 0);
+      mass += x;
+    }
+    CHECK(m.panels[0].area == Approx(exact).epsilon(1e-12));
+    CHECK(mass == Approx(0.2 * exact).epsilon(1e-12));
+    // warp, weft and fitted weights add up to the area
+    for (std::size_t b = 0; b < m.bend.size(); b += 2) {
+      stencils += m.bend_width[b] * m.bend_lengths[b].x();
+      weft += m.bend_width[b + 1] * m.bend_lengths[b + 1].x();
+    }
+    double fits = 0;
+    for (double a : m.fit_area) fits += a;
+    CHECK(stencils + fits == Approx(exact).epsilon(1e-12));
+    CHECK(weft == Approx(stencils).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("a rectangle along the grain is all full cells") {
+  modeller::ModelResult r = modeller::build_model(test::single(test::rectangle("sheet", 0.2, 0.3, 0.01)), {});
+  REQUIRE(r.model);
+  CHECK(r.model->n_particles() == 21 * 31);
+  CHECK(r.model->cell.size() == 600);
+  CHECK(r.model->membrane.empty());
+  CHECK(r.model->spring.size() == 20 * 31 + 21 * 30);
+  CHECK(r.model->bend.size() == 2 * 19 * 29);
+  // the extent need not be a multiple of the resolution
+  r = modeller::build_model(test::single(test::rectangle("sheet", 0.2037, 0.2962, 0.01)), {});
+  REQUIRE(r.model);
+  CHECK(r.model->cell.size() == 600);
+  CHECK(r.model->cell_size[0].x() == Approx(0.2037 / 20));
+}
+
+TEST_CASE("grain turned by right angles swaps warp and weft, and corners stay as drawn") {
+  for (int quarter = -1; quarter <= 2; ++quarter) {
+    design::Panel p = test::rectangle("sheet", 0.2, 0.3, 0.01);
+    p.grain_angle = quarter * 1.5707963267948966;
+    modeller::ModelResult r = modeller::build_model(test::single(p), {});
+    REQUIRE(r.model);
+    const model::Model& m = *r.model;
+    REQUIRE(m.cell.size() == 600);
+    Vector2d warp(-std::sin(p.grain_angle), std::cos(p.grain_angle)), weft(warp.y(), -warp.x());
+    for (std::size_t c = 0; c < m.cell.size(); ++c) {
+      Vector2d o = m.start[m.cell[c][0]].head<2>(), a = m.start[m.cell[c][1]].head<2>() - o,
+               b = m.start[m.cell[c][3]].head<2>() - o;
+      REQUIRE((a - m.cell_size[c].x() * weft).norm() < 1e-12);
+      REQUIRE((b - m.cell_size[c].y() * warp).norm() < 1e-12);
+    }
+    for (std::size_t s = 0; s < m.spring.size(); ++s) {
+      Vector2d d = (m.start[m.spring[s][1]] - m.start[m.spring[s][0]]).head<2>();
+      bool along_warp = std::abs(d.dot(warp)) > std::abs(d.dot(weft));
+      REQUIRE(m.spring_law[s] == (along_warp ? 0 : 1));
+      REQUIRE(d.norm() == Approx(m.spring_rest[s]));
+    }
+  }
+}
+
+TEST_CASE("panels on the fold are mirror images to the bit, for every grid") {
+  for (double h : {0.007, 0.0101, 0.02, 0.033}) {
+    design::Garment g = test::skirt(h);
+    modeller::ModelResult r = modeller::build_model(g, {});
+    for (const Finding& f : r.findings) UNSCOPED_INFO(f.message);
+    REQUIRE(r.model);
+    const model::Model& m = *r.model;
+    INFO("h " << h);
+    for (const model::PanelRange& p : m.panels) {
+      std::map<std::array<double, 2>, int> at;
+      for (int v = p.first_vertex; v < p.first_vertex + p.n_vertices; ++v)
+        at[{m.vertex_uv[v].x(), m.vertex_uv[v].y()}] = v;
+      std::vector<int> mirror(m.n_vertices(), -1);
+      for (const auto& [x, v] : at) {
+        auto other = at.find({0 - x[0], x[1]});
+        REQUIRE(other != at.end());
+        mirror[v] = other->second;
+        // mass lies on merged particles: mirror images of merged particles are merged
+        REQUIRE(m.mass[m.vertex_particle[v]] == Approx(m.mass[m.vertex_particle[mirror[v]]]).epsilon(1e-12));
+      }
+      std::set<std::set<int>> triangles;
+      for (int t = p.first_triangle; t < p.first_triangle + p.n_triangles; ++t)
+        triangles.insert({m.triangle[t].begin(), m.triangle[t].end()});
+      for (const auto& t : triangles) {
+        std::set<int> other;
+        for (int v : t) other.insert(mirror[v]);
+        REQUIRE(triangles.count(other) == 1);
+      }
+    }
+  }
+}
+
+TEST_CASE("the model does not depend on the number of threads") {
+  design::Garment g = test::skirt(0.012);
+  set_thread_count(1);
+  modeller::ModelResult one = modeller::build_model(g, {});
+  set_thread_count(4);
+  modeller::ModelResult four = modeller::build_model(g, {});
+  set_thread_count(2);
+  REQUIRE(one.model);
+  REQUIRE(four.model);
+  CHECK(one.model->vertex_uv == four.model->vertex_uv);
+  CHECK(one.model->mass == four.model->mass);
+  CHECK(one.model->fit_weight == four.model->fit_weight);
+  CHECK(one.model->triangle == four.model->triangle);
+}
