@@ -33,11 +33,10 @@ double Figure::Limb::distance(double at, double u, double z) const {
   double clamped = std::clamp(at, low, high);
   double p = across(clamped), q = along(clamped);
   double du = u - center_across(clamped), dz = z - center_z(clamped);
-  double rho = std::sqrt(du * du + dz * dz);
-  double g = std::sqrt(du * du / (p * p) + dz * dz / (q * q));
-  double d = g > 0 ? rho - rho / g : -std::min(p, q);
-  double over = at - clamped;
-  return over == 0 ? d : std::sqrt(std::max(d, 0.0) * std::max(d, 0.0) + over * over) + std::min(d, 0.0);
+  double over = at - clamped, round = std::min(p, q);  // an end is half an ellipsoid
+  double rho = std::sqrt(du * du + dz * dz + over * over);
+  double g = std::sqrt(du * du / (p * p) + dz * dz / (q * q) + over * over / (round * round));
+  return g > 0 ? rho - rho / g : -round;
 }
 
 Figure::Limb Figure::make_limb(const std::vector<LimbKnot>& knots) const {
@@ -119,10 +118,11 @@ double Figure::field(const Vector3d& p) const {
   bool near_leg = y<m_.trochanterionheight + 0.1, near_trunk = y> m_.crotchheight - 0.15;
   if (near_trunk) {
     f = trunk_distance(p);
-    f = smooth_max(f, m_.crotchheight - y, 0.05 * unit_);  // the trunk ends between the legs
+    // Between the legs the trunk ends; outwards it goes on inside them, so that no fold shows.
+    f = smooth_max(f, (m_.crotchheight - y - 0.4 * p.x()) / 1.08, 0.03 * unit_);
     f = smooth_max(f, y - table_high_ + 0.01, 0.02);
     if (bust_tape_ >= 0 && y > m_.chestheight - 0.2 && y < m_.chestheight + 0.2 && p.z() > -0.02)
-      f = smooth_min(f, breast_.distance(p), 0.035 * unit_);
+      f = smooth_min(f, breast_.distance(p), 0.045 * unit_);
     if (y > m_.cervicaleheight - 0.05)
       f = smooth_min(f, smooth_min(cranium_.distance(p), jaw_.distance(p), 0.04 * unit_), 0.035 * unit_);
   }
@@ -132,7 +132,11 @@ double Figure::field(const Vector3d& p) const {
       leg = smooth_min(leg, smooth_min(foot_.distance(p), heel_.distance(p), 0.03 * unit_), 0.035 * unit_);
     f = smooth_min(f, leg, 0.025 * unit_);
   }
-  if (p.x() > 0.06 * unit_ && y < m_.cervicaleheight) f = smooth_min(f, arm_distance(p), 0.045 * unit_);
+  if (p.x() > 0.06 * unit_ && y < m_.cervicaleheight) {
+    // A soft shoulder, but a clear armpit: at the bust the tape must pass between torso and arm.
+    double blend = std::clamp(0.6 * (y - m_.axillaheight), 0.018, 0.06) * unit_;
+    f = smooth_min(f, arm_distance(p), blend);
+  }
   return y < 0.1 ? smooth_max(f, -y, 0.012) : f;
 }
 

@@ -10,7 +10,7 @@ namespace garment::body {
 namespace {
 
 constexpr double kPi = portable::kPi;
-constexpr double kThighAspect = 0.79, kThighGap = 0.009;  // breadth to depth; m, from the plane of symmetry
+constexpr double kThighAspect = 0.79, kThighGap = 0.012;  // breadth to depth; m, from the plane of symmetry
 constexpr double kStance = 0.045;                         // tangent of the angle by which a leg stands out
 constexpr double kArmAngle = 40;                          // degrees from the vertical
 constexpr double kShoulderSlope = 21;                     // degrees
@@ -19,12 +19,21 @@ struct HalfAxes {
   double across, along;
 };
 
-/// Half axes of an ellipse with perimeter `girth` and across/along = `aspect` (Ramanujan's first formula).
-HalfAxes ellipse(double girth, double aspect) {
-  double a = aspect, b = 1;
-  double unit = kPi * (3 * (a + b) - std::sqrt((3 * a + b) * (a + 3 * b)));
-  return {girth / unit * a, girth / unit * b};
+/// Half axes of the super-ellipse |x/a|^n + |z/b|^n = 1 with perimeter `girth` and a/b = `aspect`.
+HalfAxes super_ellipse(double girth, double aspect, double n) {
+  constexpr int kPoints = 128;
+  double sum = 0, x0 = aspect, z0 = 0;
+  for (int i = 1; i <= kPoints; ++i) {
+    double angle = 0.5 * kPi * i / kPoints;
+    double x = i == kPoints ? 0 : aspect * portable::pow(portable::cos(angle), 2 / n);
+    double z = portable::pow(portable::sin(angle), 2 / n);
+    sum += std::sqrt((x - x0) * (x - x0) + (z - z0) * (z - z0));
+    x0 = x;
+    z0 = z;
+  }
+  return {girth / (4 * sum) * aspect, girth / (4 * sum)};
 }
+HalfAxes ellipse(double girth, double aspect) { return super_ellipse(girth, aspect, 2); }
 
 }  // namespace
 
@@ -44,11 +53,11 @@ int Figure::add_tape(Tape::Where where, const char* level, double at, double tar
 void Figure::lay_out_trunk() {
   using Where = Tape::Where;
   double h = m_.stature, s = unit_;
-  double waist_y = (m_.woman ? 0.649 : 0.638) * h, under_y = m_.chestheight - 0.043 * h;
+  double waist_y = (m_.woman ? 0.649 : 0.638) * h, under_y = m_.chestheight - 0.047 * h;
   double neck_y = m_.cervicaleheight + 0.010 * h;
   // Girths that the tables do not have.
   double under_girth = m_.underbust > 0 ? m_.underbust : m_.bust_chest - 0.35 * (m_.bust_chest - m_.waist);
-  double rib_girth = m_.woman ? under_girth + 0.3 * (m_.bust_chest - under_girth) : m_.bust_chest;
+  double rib_girth = m_.woman ? under_girth + 0.18 * (m_.bust_chest - under_girth) : m_.bust_chest;
 
   int hip = add_tape(Where::trunk, "hip", m_.trochanterionheight, m_.hip);
   int waist = add_tape(Where::trunk, "waist", waist_y, m_.waist);
@@ -58,8 +67,10 @@ void Figure::lay_out_trunk() {
 
   HalfAxes thigh = ellipse(m_.thighcircumference, kThighAspect);
   double thigh_outside = 2 * thigh.across + kThighGap * s;
-  HalfAxes waist_axes = ellipse(m_.waist, m_.woman ? 1.38 : 1.34), under_axes = ellipse(under_girth, 1.36);
-  HalfAxes rib = ellipse(rib_girth, m_.woman ? 1.36 : 1.33), collar = ellipse(m_.neckcircumference, 0.98);
+  HalfAxes waist_axes = super_ellipse(m_.waist, m_.woman ? 1.38 : 1.34, 2.8);
+  HalfAxes under_axes = super_ellipse(under_girth, 1.36, 2.5);
+  HalfAxes rib = super_ellipse(rib_girth, m_.woman ? 1.36 : 1.25, 2.5),
+           collar = ellipse(m_.neckcircumference, 0.98);
   double acromion = 0.5 * m_.biacromialbreadth, base = 1.10 * m_.neckcircumferencebase / (2 * kPi);
   double shoulder_top = m_.acromialheight - 0.004 * s;
   double tangent = portable::tan(kShoulderSlope * kPi / 180);
@@ -69,11 +80,12 @@ void Figure::lay_out_trunk() {
   auto knot = [&](double y, double breadth, double depth, double center, double exponent, int tape = -1) {
     trunk_knots_.push_back({y, breadth, depth, center * s, exponent, tape});
   };
-  knot(m_.crotchheight - 0.03 * s, thigh_outside - 0.006 * s, 0.90 * thigh.along, -0.010, 2.6);
-  knot(m_.crotchheight + 0.02 * s, thigh_outside - 0.003 * s, 0.96 * hip_depth, -0.014, 2.8);
-  knot(m_.trochanterionheight, 0.5 * m_.hipbreadth, hip_depth, -0.017, 3.0, hip);
+  knot(m_.crotchheight - 0.10 * s, 0.65 * thigh_outside, 0.50 * thigh.along, -0.005, 2.3);
+  knot(m_.crotchheight - 0.03 * s, 0.90 * thigh_outside, 0.82 * thigh.along, -0.009, 2.5);
+  knot(m_.crotchheight + 0.02 * s, thigh_outside - 0.003 * s, 0.96 * hip_depth, -0.014, 3.0, hip);
+  knot(m_.trochanterionheight, 0.5 * m_.hipbreadth, hip_depth, -0.017, 3.4, hip);
   knot(0.5 * (m_.trochanterionheight + m_.waistheightomphalion), 0.96 * 0.5 * m_.hipbreadth, 0.96 * hip_depth,
-       -0.010, 2.9);
+       -0.010, 3.1, hip);
   knot(m_.waistheightomphalion, 0.5 * m_.waistbreadth, 0.5 * m_.waistdepth, 0.006, 2.8);
   knot(waist_y, waist_axes.across, waist_axes.along, 0.009, 2.8, waist);
   knot(under_y, under_axes.across, under_axes.along, 0.000, 2.5, under);
@@ -86,17 +98,17 @@ void Figure::lay_out_trunk() {
   knot(0.5 * (shoulder_top + neck_base_y), 0.5 * (0.76 * acromion + base), 0.058 * s, -0.034, 2.0);
   knot(neck_base_y, base, 0.056 * s, -0.031, 2.0);
   knot(std::max(neck_y, neck_base_y + 0.02 * s), collar.across, collar.along, -0.020, 2.1, neck);
-  knot(neck_y + 0.035 * s, 0.98 * collar.across, 0.98 * collar.along, -0.010, 2.1, neck);
-  knot(neck_y + 0.075 * s, 0.96 * collar.across, 0.96 * collar.along, -0.002, 2.1, neck);
+  knot(neck_y + 0.035 * s, 0.98 * collar.across, 0.98 * collar.along, -0.006, 2.1, neck);
+  knot(neck_y + 0.075 * s, 0.96 * collar.across, 0.96 * collar.along, 0.008, 2.1, neck);
 
   if (m_.woman) {
     bust_tape_ = bust;
     tapes_[bust].additive = true;
     tapes_[bust].knob = 0.30 * (m_.bust_chest - under_girth);
-    double apex = 0.082 * (0.5 * s + 0.5 * m_.bust_chest / 0.88);  // half the distance of the bust points
-    double size = 0.052 * (0.4 * s + 0.6 * m_.bust_chest / 0.88);
-    breast_.center = {apex, m_.chestheight - 0.004 * s, rib_depth - 0.036 * s};
-    breast_.radii = {size, 1.12 * size, 0.06};
+    double apex = 0.080 * (0.5 * s + 0.5 * m_.bust_chest / 0.88);  // half the distance of the bust points
+    double size = 0.061 * (0.4 * s + 0.6 * m_.bust_chest / 0.88);
+    breast_.center = {apex, m_.chestheight + 0.002 * s, rib_depth - 0.036 * s};
+    breast_.radii = {size, 1.08 * size, 0.06};
   }
 }
 
@@ -134,9 +146,9 @@ void Figure::lay_out_arm() {
   double s = unit_, angle = kArmAngle * kPi / 180;
   arm_axis_ = {portable::sin(angle), -portable::cos(angle), 0};
   arm_across_ = {portable::cos(angle), portable::sin(angle), 0};
-  double radius = m_.bicepscircumferenceflexed / (2 * kPi), top = 1.06 * radius;
-  shoulder_ = {std::max(0.5 * m_.bideltoidbreadth - top, 0.40 * m_.biacromialbreadth),
-               m_.acromialheight - 0.012 * s - 0.8 * top, -0.028 * s};
+  double radius = m_.bicepscircumferenceflexed / (2 * kPi), top = 1.0 * radius;
+  shoulder_ = {std::max(0.5 * m_.bideltoidbreadth - 0.95 * top, 0.40 * m_.biacromialbreadth),
+               m_.acromialheight - 0.018 * s - 0.85 * top, -0.028 * s};
   double elbow = m_.acromionradialelength - 0.02 * s, wrist = m_.sleeveoutseam - 0.02 * s;
   int biceps_tape = add_tape(Tape::Where::arm, "biceps", 0.52 * elbow, m_.bicepscircumferenceflexed);
   int wrist_tape = add_tape(Tape::Where::arm, "wrist", wrist, m_.wristcircumference);
@@ -152,20 +164,20 @@ void Figure::lay_out_arm() {
   // Wrist and hand are broad in z (palm towards the thigh) and end rounded.
   HalfAxes flat = ellipse(m_.wristcircumference, 0.80);
   arm_knots_.push_back({wrist, flat.across, flat.along, 0, 0, wrist_tape});
-  arm_knots_.push_back({wrist + 0.03 * s, 0.0205 * s, 0.030 * s, 0, 0.001 * s, -1});
-  arm_knots_.push_back({wrist + 0.08 * s, 0.0190 * s, 0.041 * s, -0.002 * s, 0.004 * s, -1});
-  arm_knots_.push_back({wrist + 0.12 * s, 0.0180 * s, 0.038 * s, -0.006 * s, 0.003 * s, -1});
-  arm_knots_.push_back({wrist + 0.15 * s, 0.0160 * s, 0.029 * s, -0.010 * s, 0.002 * s, -1});
-  arm_knots_.push_back({wrist + 0.162 * s, 0.0125 * s, 0.019 * s, -0.012 * s, 0.002 * s, -1});
+  arm_knots_.push_back({wrist + 0.03 * s, 0.0215 * s, 0.028 * s, 0, 0.001 * s, -1});
+  arm_knots_.push_back({wrist + 0.08 * s, 0.0225 * s, 0.036 * s, -0.002 * s, 0.004 * s, -1});
+  arm_knots_.push_back({wrist + 0.12 * s, 0.0220 * s, 0.034 * s, -0.006 * s, 0.003 * s, -1});
+  arm_knots_.push_back({wrist + 0.15 * s, 0.0190 * s, 0.027 * s, -0.010 * s, 0.002 * s, -1});
+  arm_knots_.push_back({wrist + 0.162 * s, 0.0155 * s, 0.020 * s, -0.012 * s, 0.002 * s, -1});
 }
 
 void Figure::lay_out_head_and_foot() {
   double s = unit_, chin = m_.cervicaleheight + 0.018 * s, top = m_.stature;
   HalfAxes head = ellipse(m_.headcircumference, 0.79);
   double tall = top - chin;
-  cranium_.center = {0, top - 0.40 * tall, 0.002 * s};
+  cranium_.center = {0, top - 0.40 * tall, 0.016 * s};
   cranium_.radii = {head.across, 0.40 * tall, head.along};
-  jaw_.center = {0, chin + 0.37 * tall, 0.028 * s};
+  jaw_.center = {0, chin + 0.37 * tall, 0.044 * s};
   jaw_.radii = {0.78 * head.across, 0.37 * tall, 0.68 * head.along};
   double x = leg_knots_.front().center_across;
   foot_.center = {x + 0.006 * s, 0.012 * s, 0.055 * s};

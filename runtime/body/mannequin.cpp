@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/body/mesh_repair.hpp"
 #include "runtime/body/surface_nets.hpp"
 
 namespace garment::body {
@@ -10,7 +11,7 @@ namespace {
 
 constexpr double kCell = 0.0115;       // m, edge of the cubes: the mesh's edges come out about as long
 constexpr double kGirthGoal = 0.0003;  // m
-constexpr int kFieldRounds = 12, kMeshRounds = 6;
+constexpr int kFieldRounds = 12, kMeshRounds = 6, kMeshAttempts = 4;
 constexpr double kGirthPerBreast = 1.3;  // rise of the bust girth with the distance the breasts stand out
 constexpr double kLeastBreast = 0.004, kMostBreast = 0.25;  // m
 
@@ -61,7 +62,13 @@ MannequinResult build_mannequin(const FigureMeasures& measures) {
     if (adjust(figure, [&](const Tape& t) { return figure.field_girth(t); }) < kGirthGoal) break;
   Field field = [&figure](const Vector3d& p) { return figure.field(p); };
   Vector3d low = figure.low();
-  HalfSurface half = surface_nets(field, low.y(), low.z(), figure.high(), kCell);
+  HalfSurface half;
+  double cell = kCell;
+  for (int attempt = 0; attempt < kMeshAttempts; ++attempt, cell *= 0.93) {
+    // Where two sheets pass through one cube they touch in an edge; other cubes part them.
+    half = surface_nets(field, low.y(), low.z(), figure.high(), cell);
+    if (check_surface(mirror(half)).crowded_edges == 0) break;
+  }
   MannequinResult result;
   for (int round = 0;; ++round) {
     // A mesh lies inside the curved skin between its vertices: the girths are solved on the mesh itself.

@@ -58,6 +58,7 @@ SurfaceCheck check_surface(const TriangleMesh& mesh) {
     for (end = begin;
          end < edges.size() && edges[end][0] == edges[begin][0] && edges[end][1] == edges[begin][1]; ++end)
       sum += edges[end][2];
+    if (end - begin > 2) ++check.crowded_edges;
     if ((end - begin) % 2 == 1) {
       if (check.open_edges++ == 0) check.place = middle(edges[begin]);
     } else if (sum != 0) {

@@ -12,6 +12,7 @@ int clean_mesh(TriangleMesh& mesh);
 struct SurfaceCheck {
   std::size_t open_edges = 0;         ///< edges with an odd number of triangles
   std::size_t twisted_edges = 0;      ///< edges that two triangles walk in the same direction
+  std::size_t crowded_edges = 0;      ///< edges with more than two triangles
   Vector3d place = Vector3d::Zero();  ///< the middle of one of them (open ones first)
 };
 /// Watertight and outward-consistent when both counts are zero. Edges with four triangles are allowed: parts

@@ -51,9 +51,74 @@ void fill(Grid& grid, const Field& field) {
   });
 }
 
-/// One vertex in the middle of the crossed edges of each cube; -1 where the surface does not pass.
-std::vector<int> place_vertices(const Grid& grid, HalfSurface& half) {
-  std::vector<int> vertex(grid.value.size(), -1);
+/// The twelve edges of a cube: along `axis`, at (u, w) on the two axes that follow it cyclically.
+int edge_index(int axis, int u, int w) { return 4 * axis + u + 2 * w; }
+
+/// The cube's corner values cut into sheets: edges of the cube that the same sheet crosses carry the same
+/// number. Following the crossed edges from face to face gives closed rings, one a sheet; where the four
+/// corners of a face alternate, the sign of the bilinear saddle says which edges belong together, for both
+/// cubes of the face alike (Nielson 2004, "Dual marching cubes"). One vertex a sheet keeps the mesh from
+/// touching itself.
+int find_sheets(const std::array<double, 8>& v, std::array<int, 12>& sheet) {
+  std::array<std::array<int, 2>, 12> link;
+  link.fill({-1, -1});
+  auto join = [&](int e, int f) {
+    link[e][link[e][0] >= 0] = f;
+    link[f][link[f][0] >= 0] = e;
+  };
+  for (int axis = 0; axis < 3; ++axis)
+    for (int side = 0; side < 2; ++side) {
+      int u = (axis + 1) % 3, w = (axis + 2) % 3;
+      auto value = [&](int a, int b) { return v[(side << axis) | (a << u) | (b << w)]; };
+      // Edges of the face in the order round it: along u at w = 0, along w at u = 1, along u at w = 1, along
+      // w at u = 0.
+      std::array<int, 4> edge{edge_index(u, 0, side), edge_index(w, side, 1), edge_index(u, 1, side),
+                              edge_index(w, side, 0)};
+      std::array<double, 4> corner{value(0, 0), value(1, 0), value(1, 1), value(0, 1)};
+      std::array<int, 4> crossed{};
+      int n = 0;
+      for (int k = 0; k < 4; ++k)
+        if ((corner[k] < 0) != (corner[(k + 1) % 4] < 0)) crossed[n++] = edge[k];
+      if (n == 2) join(crossed[0], crossed[1]);
+      if (n == 4) {
+        // Corner k lies between edges k - 1 and k. A saddle inside the body joins the two inner corners.
+        bool saddle_inside = (corner[0] * corner[2] - corner[1] * corner[3] < 0) ==
+                             (corner[0] + corner[2] > corner[1] + corner[3]);
+        bool cut_even = (corner[0] < 0) != saddle_inside;  // the corners 0 and 2 are cut off
+        int shift = cut_even ? 3 : 0;
+        join(edge[shift], edge[(shift + 1) % 4]);
+        join(edge[(shift + 2) % 4], edge[(shift + 3) % 4]);
+      }
+    }
+  sheet.fill(-1);
+  int n_sheets = 0;
+  for (int e = 0; e < 12; ++e) {
+    if (link[e][0] < 0 || sheet[e] >= 0) continue;
+    for (int at = e, from = -1; sheet[at] < 0;) {
+      sheet[at] = n_sheets;
+      int next = link[at][0] == from && link[at][1] >= 0 ? link[at][1] : link[at][0];
+      from = at;
+      at = next;
+    }
+    ++n_sheets;
+  }
+  return n_sheets;
+}
+
+/// Vertices by cube and crossed edge.
+struct CubeVertices {
+  std::vector<int> first;  ///< [cubes]: vertex of the only sheet, or ~k for `several[k]`, or kNone
+  std::vector<std::array<int, 12>> several;  ///< vertex by edge
+  static constexpr int kNone = 1 << 30;
+
+  int at(std::size_t cube, int edge) const {
+    return first[cube] >= 0 ? first[cube] : several[~first[cube]][edge];
+  }
+};
+
+/// One vertex a sheet in the middle of its crossings.
+CubeVertices place_vertices(const Grid& grid, HalfSurface& half) {
+  CubeVertices vertices{std::vector<int>(grid.value.size(), CubeVertices::kNone), {}};
   for (int k = 0; k + 1 < grid.n[2]; ++k)
     for (int j = 0; j + 1 < grid.n[1]; ++j)
       for (int i = 0; i + 1 < grid.n[0]; ++i) {
@@ -64,27 +129,41 @@ std::vector<int> place_vertices(const Grid& grid, HalfSurface& half) {
           inside += v[c] < 0;
         }
         if (inside == 0 || inside == 8) continue;
-        Vector3d sum = Vector3d::Zero();
-        int crossed = 0;
-        for (int c = 0; c < 8; ++c)
-          for (int axis : {1, 2, 4}) {
-            int d = c | axis;
-            if (d == c || (v[c] < 0) == (v[d] < 0)) continue;
-            double t = v[c] / (v[c] - v[d]);
-            Vector3d a(c & 1, c >> 1 & 1, c >> 2), b(d & 1, d >> 1 & 1, d >> 2);
-            sum += a + t * (b - a);
-            ++crossed;
+        std::array<int, 12> sheet;
+        int n_sheets = find_sheets(v, sheet), base = static_cast<int>(half.vertices.size());
+        std::array<Vector3d, 4> sum;
+        std::array<int, 4> crossings{};
+        sum.fill(Vector3d::Zero());
+        for (int axis = 0; axis < 3; ++axis)
+          for (int bits = 0; bits < 4; ++bits) {
+            int s = sheet[edge_index(axis, bits & 1, bits >> 1)];
+            if (s < 0) continue;
+            Vector3d p = Vector3d::Zero();
+            p[(axis + 1) % 3] = bits & 1;
+            p[(axis + 2) % 3] = bits >> 1;
+            int c = (bits & 1) << (axis + 1) % 3 | (bits >> 1) << (axis + 2) % 3, d = c | 1 << axis;
+            p[axis] = v[c] / (v[c] - v[d]);
+            sum[s] += p;
+            ++crossings[s];
           }
-        Vector3d p = grid.corner(i, j, k) + grid.cell * (sum / crossed);
-        if (i == 0) p.x() = 0;
-        vertex[grid.at(i, j, k)] = static_cast<int>(half.vertices.size());
-        half.vertices.push_back(p);
+        for (int s = 0; s < n_sheets; ++s) {
+          Vector3d p = grid.corner(i, j, k) + grid.cell * (sum[s] / crossings[s]);
+          if (i == 0) p.x() = 0;
+          half.vertices.push_back(p);
+        }
+        int& first = vertices.first[grid.at(i, j, k)];
+        first = base;
+        if (n_sheets > 1) {
+          first = ~static_cast<int>(vertices.several.size());
+          for (int& s : sheet) s = s >= 0 ? base + s : -1;
+          vertices.several.push_back(sheet);
+        }
       }
-  return vertex;
+  return vertices;
 }
 
 /// A quad round every edge of the grid that the surface crosses.
-void add_quads(const Grid& grid, const std::vector<int>& vertex, HalfSurface& half) {
+void add_quads(const Grid& grid, const CubeVertices& vertices, HalfSurface& half) {
   for (int k = 1; k + 1 < grid.n[2]; ++k)
     for (int j = 1; j + 1 < grid.n[1]; ++j)
       for (int i = 1; i + 1 < grid.n[0]; ++i)
@@ -99,7 +178,7 @@ void add_quads(const Grid& grid, const std::vector<int>& vertex, HalfSurface& ha
             std::array<int, 3> c = a;
             c[u] -= du;
             c[w] -= dw;
-            return vertex[grid.at(c[0], c[1], c[2])];
+            return vertices.at(grid.at(c[0], c[1], c[2]), edge_index(axis, du, dw));
           };
           std::array<int, 4> quad{cube(1, 1), cube(0, 1), cube(0, 0), cube(1, 0)};
           if (inside_b) std::swap(quad[1], quad[3]);
@@ -189,8 +268,8 @@ HalfSurface surface_nets(const Field& field, double low_y, double low_z, const V
   grid.value.assign(static_cast<std::size_t>(grid.n[0]) * grid.n[1] * grid.n[2], 1);
   fill(grid, field);
   HalfSurface half;
-  std::vector<int> vertex = place_vertices(grid, half);
-  add_quads(grid, vertex, half);
+  CubeVertices vertices = place_vertices(grid, half);
+  add_quads(grid, vertices, half);
   project(half, field, 2);
   smooth(half, field);
   project(half, field, 2);
