@@ -83,8 +83,10 @@ std::string ParseState::found(std::size_t at) const {
 }
 
 void ParseState::fail(const Problem& problem, std::size_t at) const {
+  bool in_text = problem.kind == ProblemKind::quote;
+  while (!in_text && is_blank(this->at(at))) ++at;
   bool known = at >= text_.size() || is_known(text_[at]);
-  if (!known && problem.kind != ProblemKind::quote) throw unknown_character(at);
+  if (!known && !in_text) throw unknown_character(at);
   switch (problem.kind) {
     case ProblemKind::value:
       throw missing_value(problem, at);
@@ -167,23 +169,25 @@ SyntaxError ParseState::unclosed(const Problem& problem, std::size_t at) const {
   while (before > 0 && is_blank(text_[before - 1])) --before;
   std::size_t word = before;
   while (word > 0 && (is_word_char(text_[word - 1]) || text_[word - 1] == '.')) --word;
+  const std::vector<Opener>& openers = expressions_.openers();
+  const Opener& opener = openers.back();
+  bool is_entry = problem.code == "G0216" && is_word_start(this->at(at));
   bool follows_number = word < before && is_digit(text_[word]);
-  if (follows_number && is_word_start(this->at(at))) return unknown_unit(before, at);
+  if (follows_number && !is_entry && is_word_start(this->at(at))) return unknown_unit(before, at);
 
-  const Opener& opener = expressions_.openers().back();
   bool at_end = at >= text_.size();
-  if (at_end || text_[at] == '\n' || statement_begins(at)) {
+  bool ends_string = this->at(at) == '"' && openers.size() > 1 && openers[openers.size() - 2].sign == '"';
+  if (at_end || text_[at] == '\n' || ends_string || statement_begins(at)) {
     std::string message = fmt::format("`{}` is not closed", opener.sign);
     if (!at_end) message += ": expected " + std::string(problem.expected);
-    SyntaxError error = error_at(opener.span, problem.code, message, "opened here");
+    SyntaxError error = error_at(opener.span, "G0203", message, "opened here");
     error.position = static_cast<std::uint32_t>(at);
     error.incomplete = at_end;
     return error;
   }
-  bool is_entry = problem.expected.substr(0, 8) == "an entry" && is_word_start(this->at(at));
-  SyntaxError error =
-      error_at(found_span(at), is_entry ? "G0216" : problem.code,
-               fmt::format("expected {}, found {}", problem.expected, found(at)), "unexpected");
+  std::string_view expected = this->at(at) == ',' ? "a value" : problem.expected;
+  SyntaxError error = error_at(found_span(at), is_entry ? "G0216" : "G0203",
+                               fmt::format("expected {}, found {}", expected, found(at)), "unexpected");
   error.diagnostic.labels.push_back({opener.span, "opened here"});
   if (is_entry) error.diagnostic.help = "write `key = value`, with commas or line ends between the entries";
   if (this->at(at) == '=' && this->at(at + 1) != '=')
@@ -196,7 +200,13 @@ SyntaxError ParseState::unknown_statement(std::size_t at) const {
   if (c == ')' || c == ']')
     return error_at(found_span(at), "G0205", fmt::format("`{}` closes nothing", c), "one too many",
                     "remove it");
+  if (c == '\n')
+    return error_at(found_span(at), "G0202", "expected a statement after `both`, found the end of the line",
+                    "expected here");
   std::string_view word = word_at(text_, at);
+  if (c == '{')
+    return error_at(found_span(at), "G0202", "a statement cannot begin with `{`",
+                    "expected a keyword or a name", "the `{` of a block stands on the line of its keyword");
   if (word.empty())
     return error_at(
         found_span(at), "G0202", fmt::format("a statement cannot begin with {}", found(at)),

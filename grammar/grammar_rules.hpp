@@ -29,9 +29,11 @@ struct sign_begins_value : look<&ParseState::sign_begins_value> {};
 struct statement_begins : look<&ParseState::statement_begins> {};
 struct assignment_begins : look<&ParseState::assignment_begins> {};
 struct outer_statement_begins : look<&ParseState::outer_statement_begins> {};
+struct block_begins_below : look<&ParseState::block_begins_below> {};
 struct declares_name : ask<&ParseState::declares_name> {};
 struct has_body : ask<&ParseState::has_body> {};
 struct not_stopped : ask<&ParseState::not_stopped> {};
+struct block_left_open : ask<&ParseState::block_left_open> {};
 
 // ---- words
 struct if_word : keyword<'i', 'f'> {};
@@ -186,12 +188,12 @@ struct item_gap : seq<line_gap, opt<continuation>> {};
 struct items : star<item_gap, sor<clause, values>> {};
 
 // ---- statements
-struct end_mark : sor<eof, one<'\n', ';', '}'>> {};
+struct end_mark : sor<eof, one<'\n', ';', '}'>, block_left_open> {};
 struct statement_end : seq<line_gap, at<end_mark>> {};
 struct separators : star<sor<one<' ', '\t', '\r', '\n', ';'>, comment>> {};
 struct statement : recovering<any_statement> {};
 struct statements : seq<separators, star<not_stopped, statement, separators>> {};
-struct block_open : one<'{'> {};
+struct block_open : sor<one<'{'>, block_begins_below> {};
 struct block_close : sor<one<'}'>, eof, outer_statement_begins> {};
 struct block : if_must<block_open, statements, block_close> {};
 struct required_block : seq<block> {};
@@ -212,7 +214,7 @@ struct else_body : sor<nested_if, required_block> {};
 struct else_part : if_must<else_begin, line_gap, else_body> {};
 struct if_statement : seq<if_begin, if_rest, must<statement_end>> {};
 
-struct loop_name : seq<name> {};
+struct loop_name : seq<not_at<in_word>, name> {};
 struct loop_in : in_word {};
 struct loop_range : seq<expression> {};
 struct loop_head : seq<line_gap, must<loop_name>, line_gap, must<loop_in>, line_gap, must<loop_range>> {};

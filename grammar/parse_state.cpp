@@ -97,6 +97,7 @@ bool ParseState::statement_begins(std::size_t at) const {
 
 bool ParseState::assignment_begins(std::size_t at) const {
   if (!is_word_start(this->at(at))) return false;
+  const std::size_t begin = at;
   while (true) {
     while (is_word_char(this->at(at))) ++at;
     if (this->at(at) == '{') {
@@ -113,8 +114,13 @@ bool ParseState::assignment_begins(std::size_t at) const {
       break;
     }
   }
+  std::string_view target = text_.substr(begin, at - begin);
   while (is_blank(this->at(at))) ++at;
-  return this->at(at) == '=' && this->at(at + 1) != '=';
+  if (this->at(at) != '=' || this->at(at + 1) == '=') return false;
+  Keywords::Match match = allowed_keyword(begin);  // `let = 3` lacks its name
+  bool lacks_name = match.length == target.size() && match.keyword->info->declares_name &&
+                    match.keyword->clauses.count("=");
+  return !lacks_name;
 }
 
 const WordSet& ParseState::allowed_words() const {
@@ -136,6 +142,18 @@ bool ParseState::outer_statement_begins(std::size_t at) const {
   if (keywords_.top().count(word)) return true;
   return std::any_of(statements_.begin(), statements_.end() - 1,
                      [&](const Open& open) { return open.allowed->count(word) > 0; });
+}
+
+bool ParseState::block_begins_below(std::size_t at) const {
+  const Open& open = statements_.back();
+  if (this->at(at) != '\n' || !open.keyword || !open.keyword->info->has_body) return false;
+  std::size_t next = next_word_line(at);
+  const Keyword* keyword = keywords_.match(text_, next).keyword;
+  if (!keyword || indent_of(next) <= open.indent || assignment_begins(next)) return false;
+  const WordSet& around =
+      statements_.size() > 1 ? *statements_[statements_.size() - 2].allowed : keywords_.top();
+  std::string_view word = keyword->info->keyword;
+  return open.allowed->count(word) > 0 && around.count(word) == 0;
 }
 
 bool ParseState::declares_name() const { return statements_.back().keyword->info->declares_name; }

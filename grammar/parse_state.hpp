@@ -56,6 +56,10 @@ class ParseState {
   std::size_t unit_length(std::size_t at) const { return keywords_.unit_length(text_, at); }
   bool in_brackets() const { return expressions_.mode() == Mode::brackets; }
   bool not_stopped() const { return !stopped_; }
+  /// The block just read has no }: its statement ends before the next one.
+  bool block_left_open() const { return left_open_; }
+  /// At a line end: the deeper next line begins with a keyword of this statement's block, but the { is missing.
+  bool block_begins_below(std::size_t at) const;
   bool declares_name() const;
   bool has_body() const;
 
@@ -66,7 +70,7 @@ class ParseState {
   void begin_assignment(Span sign);  ///< its target was read before
   void add_value();
   void begin_clause(Span word);
-  void open_block(Span brace);
+  void open_block(Span brace);  ///< `brace` is empty where the { is missing; that is reported here
   /// `brace` is empty where the } is missing; that is reported here, once for each mistake.
   void close_block(Span brace);
   void end_else();
@@ -112,7 +116,7 @@ class ParseState {
   void report_open_block(const Open& open, std::size_t at);
   std::size_t line_of(std::size_t at) const;
   std::size_t next_word_line(std::size_t at) const;
-  bool ends_before(std::size_t next, std::size_t position, int indent, const std::vector<char>& open) const;
+  bool ends_before(std::size_t next, std::size_t position, int indent, bool open, bool skipped) const;
 
   std::string found(std::size_t at) const;
   Span found_span(std::size_t at) const;
@@ -138,6 +142,7 @@ class ParseState {
   bool incomplete_ = false;  // some mistake would vanish with more text
   bool final_ = false;       // some would not
   bool stopped_ = false;
+  bool left_open_ = false;
   bool end_reported_ = false;
   mutable std::size_t indent_line_ =
       0;  // the last line asked for and its indentation: a line may hold many statements

@@ -56,7 +56,7 @@ inline constexpr Problem problem<call_close> = {closing, "G0203", "`,` or `)`"};
 template <>
 inline constexpr Problem problem<index_close> = {closing, "G0203", "`]`"};
 template <>
-inline constexpr Problem problem<record_close> = {closing, "G0203", "an entry `key = value` or `}`"};
+inline constexpr Problem problem<record_close> = {closing, "G0216", "an entry `key = value` or `}`"};
 template <>
 inline constexpr Problem problem<branch_close> = {closing, "G0203", "`}`"};
 template <>

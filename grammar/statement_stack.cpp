@@ -50,6 +50,7 @@ void ParseState::begin_statement(Span keyword, std::string_view text, const Keyw
   open.keyword = info;
   open.allowed = info ? &info->body : &allowed_words();
   open.indent = indent_of(keyword.begin);
+  left_open_ = false;
   statements_.push_back(std::move(open));
 }
 
@@ -87,6 +88,14 @@ void ParseState::open_block(Span brace) {
   Open& open = statements_.back();
   open.brace = brace;
   open.in_block = true;
+  if (brace.begin < brace.end) return;
+  SyntaxError error;
+  error.diagnostic = {"G0212",
+                      Severity::error,
+                      fmt::format("the block of `{}` has no `{{`", open.statement.keyword.text),
+                      {{open.statement.keyword.span, "this has a block"}},
+                      "add `{` at the end of this line"};
+  report(std::move(error));
 }
 
 bool ParseState::closes_less_indented(const Open& open, Span brace) const {
@@ -97,6 +106,7 @@ void ParseState::close_block(Span brace) {
   expressions_.close();
   Open& open = statements_.back();
   bool is_missing = brace.begin == brace.end;
+  left_open_ = is_missing;
   if (is_missing)
     report_open_block(open, brace.begin);
   else if (suspect_keyword_.empty() && closes_less_indented(open, brace)) {
@@ -147,6 +157,7 @@ void ParseState::end_statement(std::uint32_t end) {
   Open open = std::move(statements_.back());
   statements_.pop_back();
   Statement& statement = open.statement;
+  while (end > statement.span.begin && (is_blank(text_[end - 1]) || text_[end - 1] == '\n')) --end;
   statement.span.end = end;
   bool names_itself = open.keyword && open.keyword->info->declares_name && !statement.name;
   if (names_itself && !statement.operands.empty() && statement.operands[0].kind == ExprKind::call) {
