@@ -76,7 +76,7 @@ struct Model {
   std::vector<Indices<4>> cell;                  ///< particle ids 0..3 as drawn above
   std::vector<Vector2d> cell_size;               ///< (h1, h2), m
   std::vector<double> cell_shear;                ///< G, N/m per rad
-  std::vector<double> cell_twist;                ///< Ct times the share of the cell that twists here, N m (0..Ct)
+  std::vector<double> cell_twist;                ///< Ct times (area whose twist is read here / area of the cell), N m
   // --- cut cells: E = A [Psi1(|U|-1) + Psi2(|V|-1) + G phi^2/2], U = dx/d(warp), V = dx/d(weft)
   std::vector<Indices<3>> membrane;              ///< particle ids
   std::vector<std::array<double, 6>> membrane_weights;  ///< U = sum w[k] x_k, V = sum w[3+k] x_k, 1/m

@@ -1,0 +1,161 @@
+#include "runtime/model/dump.hpp"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "runtime/base/number.hpp"
+#include "runtime/model/array_rows.hpp"
+#include "runtime/model/model_arrays.hpp"
+
+namespace garment::model {
+namespace {
+
+struct Fnv {
+  std::uint64_t value = 0xcbf29ce484222325ull;
+  void add(std::uint64_t bits) {
+    for (int k = 0; k < 8; ++k) {
+      value ^= (bits >> (8 * k)) & 0xff;
+      value *= 0x100000001b3ull;
+    }
+  }
+  void add(double x) { add(std::bit_cast<std::uint64_t>(x)); }
+  void add(Index x) { add(static_cast<std::uint64_t>(static_cast<std::int64_t>(x))); }
+  template <class T>
+  void add(const std::vector<T>& values) {
+    add(static_cast<std::uint64_t>(values.size()));
+    for (const T& row : values) for_each_number(row, [&](auto x) { add(x); });
+  }
+};
+
+std::string number(double x) { return std::isfinite(x) ? format_number(x) : "null"; }
+std::string number(Index x) { return fmt::to_string(x); }
+
+std::string quoted(const std::string& text) {
+  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+template <class T>
+std::string row_text(const T& row) {
+  std::string text;
+  for_each_number(row, [&](auto x) {
+    if (!text.empty()) text += ',';
+    text += number(x);
+  });
+  return kIsTuple<T> ? "[" + text + "]" : text;
+}
+
+template <class T>
+std::string list_text(const std::vector<T>& values) {
+  std::string text = "[";
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (i > 0) text += ',';
+    text += row_text(values[i]);
+  }
+  return text + "]";
+}
+
+template <class T, class F>
+std::string objects_text(const std::vector<T>& values, const F& one) {
+  std::string text = "[";
+  for (std::size_t i = 0; i < values.size(); ++i) text += (i > 0 ? ",\n    " : "\n    ") + one(values[i]);
+  return text + (values.empty() ? "]" : "\n  ]");
+}
+
+}  // namespace
+
+std::uint64_t state_hash(const State& state) {
+  Fnv hash;
+  for (const Vector3d& x : state.position)
+    for (int k = 0; k < 3; ++k) hash.add(x[k]);
+  return hash.value;
+}
+
+std::uint64_t model_hash(const Model& model) {
+  Fnv hash;
+#define HASH_ARRAY(name, rows, refers_to, sign, unit) hash.add(model.name);
+  GARMENT_MODEL_ARRAYS(HASH_ARRAY)
+#undef HASH_ARRAY
+  for (const TensileLaw& law : model.laws) {
+    hash.add(law.strain);
+    hash.add(law.force);
+    hash.add(law.slope);
+  }
+  for (const PanelRange& p : model.panels) {
+    for (Index i : {p.first_vertex, p.n_vertices, p.first_triangle, p.n_triangles}) hash.add(i);
+    for (double x : {p.area, p.mass}) hash.add(x);
+  }
+  for (const SeamChain& s : model.seams) {
+    hash.add(s.particles);
+    hash.add(s.length);
+  }
+  for (int k = 0; k < 3; ++k) hash.add(model.gravity[k]);
+  return hash.value;
+}
+
+std::string hash_text(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
+
+std::string summary_text(const Model& model) {
+  double mass = 0, area = 0;
+  for (const PanelRange& p : model.panels) {
+    mass += p.mass;
+    area += p.area;
+  }
+  std::string text;
+  auto line = [&](const std::string& l) { text += l + "\n"; };
+  line(fmt::format("particles {}, vertices {}, triangles {}", model.n_particles(), model.n_vertices(),
+                   model.n_triangles()));
+  line(fmt::format("cells {}, springs {}, membranes {}, bends {}, fits {}, holds {}", model.cell.size(),
+                   model.spring.size(), model.membrane.size(), model.bend.size(), model.fit_area.size(),
+                   model.hold_particle.size()));
+  line(fmt::format("mass {} g, area {} cm^2", format_number(mass * 1000, 6), format_number(area * 1e4, 6)));
+  for (const PanelRange& p : model.panels)
+    line(fmt::format("panel {}: {} vertices, {} triangles, {} cm^2, {} g", p.name, p.n_vertices,
+                     p.n_triangles, format_number(p.area * 1e4, 6), format_number(p.mass * 1000, 6)));
+  for (const SeamChain& s : model.seams)
+    line(fmt::format("seam {}: {} particles, {} mm", s.name, s.particles.size(),
+                     format_number(s.length * 1000, 6)));
+  line("hash " + hash_text(model_hash(model)));
+  return text;
+}
+
+std::string dump_json(const Model& model) {
+  std::string text = "{\n";
+#define DUMP_ARRAY(name, rows, refers_to, sign, unit) \
+  text += "  \"" #name "\": " + list_text(model.name) + ",\n";
+  GARMENT_MODEL_ARRAYS(DUMP_ARRAY)
+#undef DUMP_ARRAY
+  text +=
+      "  \"laws\": " +
+      objects_text(model.laws,
+                   [](const TensileLaw& law) {
+                     return fmt::format(R"({{"strain": {}, "force": {}, "slope": {}}})",
+                                        list_text(law.strain), list_text(law.force), list_text(law.slope));
+                   }) +
+      ",\n";
+  text +=
+      "  \"panels\": " +
+      objects_text(
+          model.panels,
+          [](const PanelRange& p) {
+            return fmt::format(
+                R"({{"name": {}, "first_vertex": {}, "n_vertices": {}, "first_triangle": {}, "n_triangles": {}, "area": {}, "mass": {}, "color": {}}})",
+                quoted(p.name), p.first_vertex, p.n_vertices, p.first_triangle, p.n_triangles, number(p.area),
+                number(p.mass), row_text(p.color));
+          }) +
+      ",\n";
+  text += "  \"seams\": " +
+          objects_text(model.seams,
+                       [](const SeamChain& s) {
+                         return fmt::format(R"({{"name": {}, "length": {}, "particles": {}}})",
+                                            quoted(s.name), number(s.length), list_text(s.particles));
+                       }) +
+          ",\n";
+  text += "  \"gravity\": " + row_text(model.gravity) + ",\n";
+  text += "  \"hash\": \"" + hash_text(model_hash(model)) + "\"\n}\n";
+  return text;
+}
+
+}  // namespace garment::model

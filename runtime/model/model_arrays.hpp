@@ -1,0 +1,105 @@
+#pragma once
+// The one list of the Model's arrays. Checking, hashing and dumping are expanded from it; a new array of the
+// Model gets a line here and nothing else.
+#include <cstddef>
+
+#include "runtime/model/model.hpp"
+
+namespace garment::model {
+
+/// What an array has one row for, and what its indices refer to.
+enum class Rows {
+  particle,
+  vertex,
+  triangle,
+  spring,
+  cell,
+  membrane,
+  bend,
+  fit,
+  fit_bound,
+  fit_entry,
+  hold,
+  panel,
+  law,
+  none
+};
+
+/// Number of rows of that kind.
+inline std::size_t row_count(const Model& m, Rows rows) {
+  switch (rows) {
+    case Rows::particle:
+      return m.mass.size();
+    case Rows::vertex:
+      return m.vertex_particle.size();
+    case Rows::triangle:
+      return m.triangle.size();
+    case Rows::spring:
+      return m.spring.size();
+    case Rows::cell:
+      return m.cell.size();
+    case Rows::membrane:
+      return m.membrane.size();
+    case Rows::bend:
+      return m.bend.size();
+    case Rows::fit:
+      return m.fit_area.size();
+    case Rows::fit_bound:
+      return m.fit_area.size() + 1;
+    case Rows::fit_entry:
+      return m.fit_particle.size();
+    case Rows::hold:
+      return m.hold_particle.size();
+    case Rows::panel:
+      return m.panels.size();
+    case Rows::law:
+      return m.laws.size();
+    case Rows::none:
+      break;
+  }
+  return 0;
+}
+
+}  // namespace garment::model
+
+/// X(name, rows, refers_to, sign, unit): `sign` is what each number must be: positive, not_negative, any.
+// clang-format off
+#define GARMENT_MODEL_ARRAYS(X)                                    \
+  X(mass,             particle,  none,      positive,     "kg")    \
+  X(start,            particle,  none,      any,          "m")     \
+  X(thickness,        particle,  none,      not_negative, "m")     \
+  X(friction,         particle,  none,      not_negative, "")      \
+  X(vertex_particle,  vertex,    particle,  any,          "")      \
+  X(vertex_panel,     vertex,    panel,     any,          "")      \
+  X(vertex_uv,        vertex,    none,      any,          "m")     \
+  X(triangle,         triangle,  vertex,    any,          "")      \
+  X(triangle_panel,   triangle,  panel,     any,          "")      \
+  X(spring,           spring,    particle,  any,          "")      \
+  X(spring_rest,      spring,    none,      positive,     "m")     \
+  X(spring_width,     spring,    none,      positive,     "m")     \
+  X(spring_law,       spring,    law,       any,          "")      \
+  X(spring_panel,     spring,    panel,     any,          "")      \
+  X(cell,             cell,      particle,  any,          "")      \
+  X(cell_size,        cell,      none,      positive,     "m")     \
+  X(cell_shear,       cell,      none,      not_negative, "N/m")   \
+  X(cell_twist,       cell,      none,      not_negative, "N m")   \
+  X(membrane,         membrane,  particle,  any,          "")      \
+  X(membrane_weights, membrane,  none,      any,          "1/m")   \
+  X(membrane_area,    membrane,  none,      positive,     "m^2")   \
+  X(membrane_law,     membrane,  law,       any,          "")      \
+  X(membrane_shear,   membrane,  none,      not_negative, "N/m")   \
+  X(membrane_panel,   membrane,  panel,     any,          "")      \
+  X(bend,             bend,      particle,  any,          "")      \
+  X(bend_lengths,     bend,      none,      positive,     "m")     \
+  X(bend_width,       bend,      none,      positive,     "m")     \
+  X(bend_rigidity,    bend,      none,      not_negative, "N m")   \
+  X(fit_begin,        fit_bound, fit_entry, any,          "")      \
+  X(fit_particle,     fit_entry, particle,  any,          "")      \
+  X(fit_weight,       fit_entry, none,      any,          "1/m^2") \
+  X(fit_area,         fit,       none,      positive,     "m^2")   \
+  X(fit_rigidity,     fit,       none,      any,          "N m")   \
+  X(hold_particle,    hold,      particle,  any,          "")      \
+  X(hold_kind,        hold,      none,      any,          "")      \
+  X(hold_point,       hold,      none,      any,          "m")     \
+  X(hold_normal,      hold,      none,      any,          "")
+// clang-format on
