@@ -21,6 +21,20 @@ double smooth_min(double a, double b, double k) {
 }
 double smooth_max(double a, double b, double k) { return -smooth_min(-a, -b, k); }
 
+/// Mean over about 4 cm, twice: a cubic through the knots still has ledges where its curvature jumps.
+void soften(std::vector<double>& values) {
+  constexpr int kReach = 3;
+  int n = static_cast<int>(values.size());
+  for (int pass = 0; pass < 2; ++pass) {
+    std::vector<double> mean(values.size(), 0);
+    for (int i = 0; i < n; ++i) {
+      for (int k = -kReach; k <= kReach; ++k) mean[i] += values[std::clamp(i + k, 0, n - 1)];
+      mean[i] /= 2 * kReach + 1;
+    }
+    values = std::move(mean);
+  }
+}
+
 }  // namespace
 
 double Figure::Ellipsoid::distance(const Vector3d& p) const {
@@ -78,12 +92,19 @@ void Figure::rebuild() {
   int rows = static_cast<int>((y.back() - y.front()) / kRow) + 2;
   table_high_ = table_low_ + (rows - 1) * kRow;
   radius_.resize(static_cast<std::size_t>(rows) * (kColumns + 1));
-  center_.resize(rows);
   slope_.resize(rows);
+  std::vector<double> breadths(rows), depths(rows);
+  center_.resize(rows);
   for (int r = 0; r < rows; ++r) {
-    double h = table_low_ + r * kRow, n = exponent_at(h), a = breadth_at(h), d = depth_at(h);
+    double h = table_low_ + r * kRow;
+    breadths[r] = breadth_at(h);
+    depths[r] = depth_at(h);
     center_[r] = center_at(h);
-    double steep = (breadth_at(h + kRow) - breadth_at(h - kRow)) / (2 * kRow);
+  }
+  for (std::vector<double>* values : {&breadths, &depths, &center_}) soften(*values);
+  for (int r = 0; r < rows; ++r) {
+    double h = table_low_ + r * kRow, n = exponent_at(h), a = breadths[r], d = depths[r];
+    double steep = (breadths[std::min(r + 1, rows - 1)] - breadths[std::max(r - 1, 0)]) / (2 * kRow);
     slope_[r] = 1 / std::sqrt(1 + steep * steep);
     for (int c = 0; c <= kColumns; ++c) {
       double angle = kPi * c / kColumns;

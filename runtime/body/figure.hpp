@@ -54,8 +54,6 @@ class Figure {
 
   Vector3d low() const;
   Vector3d high() const;
-  double crotch_height() const { return m_.crotchheight; }
-  double armpit_height() const { return m_.axillaheight; }
 
  private:
   /// One row of the trunk: half breadth and half depth of a super-ellipse about (0, y, center).

@@ -10,10 +10,10 @@ namespace garment::body {
 namespace {
 
 constexpr double kPi = portable::kPi;
-constexpr double kThighAspect = 0.79, kThighGap = 0.012;  // breadth to depth; m, from the plane of symmetry
-constexpr double kStance = 0.045;                         // tangent of the angle by which a leg stands out
-constexpr double kArmAngle = 40;                          // degrees from the vertical
-constexpr double kShoulderSlope = 21;                     // degrees
+constexpr double kThighGap = 0.012;    // m, from the plane of symmetry to a thigh, at a stature of 1.68 m
+constexpr double kStance = 0.045;      // tangent of the angle by which a leg stands out
+constexpr double kArmAngle = 40;       // degrees from the vertical
+constexpr double kShoulderSlope = 21;  // degrees
 
 struct HalfAxes {
   double across, along;
@@ -34,6 +34,16 @@ HalfAxes super_ellipse(double girth, double aspect, double n) {
   return {girth / (4 * sum) * aspect, girth / (4 * sum)};
 }
 HalfAxes ellipse(double girth, double aspect) { return super_ellipse(girth, aspect, 2); }
+
+/// Breadth to depth of a thigh: both thighs together are as broad as the hip, within what thighs look like.
+double thigh_aspect(const FigureMeasures& m, double gap) {
+  double low = 0.66, high = 0.86, outside = 1.02 * 0.5 * m.hipbreadth;
+  for (int i = 0; i < 30; ++i) {
+    double middle = 0.5 * (low + high);
+    (2 * ellipse(m.thighcircumference, middle).across + gap < outside ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
 
 }  // namespace
 
@@ -65,11 +75,11 @@ void Figure::lay_out_trunk() {
   int bust = add_tape(Where::trunk, "bust", m_.chestheight, m_.bust_chest);
   int neck = add_tape(Where::trunk, "neck", neck_y, m_.neckcircumference);
 
-  HalfAxes thigh = ellipse(m_.thighcircumference, kThighAspect);
+  HalfAxes thigh = ellipse(m_.thighcircumference, thigh_aspect(m_, kThighGap * s));
   double thigh_outside = 2 * thigh.across + kThighGap * s;
   HalfAxes waist_axes = super_ellipse(m_.waist, m_.woman ? 1.38 : 1.34, 2.8);
   HalfAxes under_axes = super_ellipse(under_girth, 1.36, 2.5);
-  HalfAxes rib = super_ellipse(rib_girth, m_.woman ? 1.36 : 1.25, 2.5),
+  HalfAxes rib = super_ellipse(rib_girth, m_.woman ? 1.36 : 1.29, 2.5),
            collar = ellipse(m_.neckcircumference, 0.98);
   double acromion = 0.5 * m_.biacromialbreadth, base = 1.10 * m_.neckcircumferencebase / (2 * kPi);
   double shoulder_top = m_.acromialheight - 0.004 * s;
@@ -89,9 +99,9 @@ void Figure::lay_out_trunk() {
   knot(m_.waistheightomphalion, 0.5 * m_.waistbreadth, 0.5 * m_.waistdepth, 0.006, 2.8);
   knot(waist_y, waist_axes.across, waist_axes.along, 0.009, 2.8, waist);
   knot(under_y, under_axes.across, under_axes.along, 0.000, 2.5, under);
-  knot(m_.chestheight, rib.across, rib_depth, -0.007, 2.5, m_.woman ? -1 : bust);
-  knot(m_.axillaheight, std::max(0.385 * m_.biacromialbreadth, 1.01 * rib.across), 0.90 * rib_depth, -0.020,
-       2.4);
+  knot(m_.chestheight, rib.across, rib_depth, -0.009, 2.5, m_.woman ? -1 : bust);
+  knot(m_.axillaheight, std::max(0.385 * m_.biacromialbreadth, 1.01 * rib.across),
+       (m_.woman ? 0.90 : 0.94) * rib_depth, -0.020, 2.4);
   knot(0.5 * (m_.axillaheight + shoulder_top), 0.80 * acromion, 0.76 * rib_depth, -0.027, 2.2);
   knot(shoulder_top - 0.018 * s, 0.84 * acromion, 0.62 * rib_depth, -0.031, 2.1);
   knot(shoulder_top, 0.76 * acromion, 0.57 * rib_depth, -0.033, 2.0);
@@ -121,7 +131,8 @@ void Figure::lay_out_leg() {
   int knee = add_tape(Tape::Where::leg, "knee", knee_y, 0.965 * m_.lowerthighcircumference);
   int calf = add_tape(Tape::Where::leg, "calf", calf_y, m_.calfcircumference);
   int ankle = add_tape(Tape::Where::leg, "ankle", ankle_y, m_.anklecircumference);
-  HalfAxes top = ellipse(m_.thighcircumference, kThighAspect);
+  double top_aspect = thigh_aspect(m_, kThighGap * s);
+  HalfAxes top = ellipse(m_.thighcircumference, top_aspect);
   double x0 = top.across + kThighGap * s;
   auto knot = [&](double y, double girth, double aspect, double z, int tape) {
     HalfAxes axes = ellipse(girth, aspect);
@@ -137,9 +148,9 @@ void Figure::lay_out_leg() {
   knot(knee_y, 0.965 * m_.lowerthighcircumference, 0.92, -0.008, knee);
   knot(lower_y, m_.lowerthighcircumference, 0.92, -0.007, lower);
   knot(0.5 * (lower_y + thigh_y), middle_girth, 0.86, -0.002, -1);
-  knot(thigh_y, m_.thighcircumference, kThighAspect, 0.000, thigh);
-  knot(m_.crotchheight + 0.01 * s, 0.97 * m_.thighcircumference, kThighAspect, -0.004, thigh);
-  knot(m_.crotchheight + 0.06 * s, 0.70 * m_.thighcircumference, kThighAspect, -0.010, thigh);
+  knot(thigh_y, m_.thighcircumference, top_aspect, 0.000, thigh);
+  knot(m_.crotchheight + 0.01 * s, 0.97 * m_.thighcircumference, top_aspect, -0.004, thigh);
+  knot(m_.crotchheight + 0.06 * s, 0.70 * m_.thighcircumference, top_aspect, -0.010, thigh);
 }
 
 void Figure::lay_out_arm() {
@@ -147,7 +158,7 @@ void Figure::lay_out_arm() {
   arm_axis_ = {portable::sin(angle), -portable::cos(angle), 0};
   arm_across_ = {portable::cos(angle), portable::sin(angle), 0};
   double radius = m_.bicepscircumferenceflexed / (2 * kPi), top = 1.0 * radius;
-  shoulder_ = {std::max(0.5 * m_.bideltoidbreadth - 0.95 * top, 0.40 * m_.biacromialbreadth),
+  shoulder_ = {std::max(0.5 * m_.bideltoidbreadth - 0.90 * top, 0.40 * m_.biacromialbreadth),
                m_.acromialheight - 0.018 * s - 0.85 * top, -0.028 * s};
   double elbow = m_.acromionradialelength - 0.02 * s, wrist = m_.sleeveoutseam - 0.02 * s;
   int biceps_tape = add_tape(Tape::Where::arm, "biceps", 0.52 * elbow, m_.bicepscircumferenceflexed);

@@ -35,11 +35,12 @@ double adjust(Figure& figure, const Girth& girth_at) {
   return worst;
 }
 
-/// Puts the soles on y = 0.
-void stand(HalfSurface& half) {
+/// Puts the soles on y = 0; returns by how much they were above it.
+double stand(HalfSurface& half) {
   double low = 1;
   for (const Vector3d& p : half.vertices) low = std::min(low, p.y());
   for (Vector3d& p : half.vertices) p.y() -= low;
+  return low;
 }
 
 }  // namespace
@@ -76,17 +77,17 @@ MannequinResult build_mannequin(const FigureMeasures& measures) {
     result.worst = 0;
     for (const Tape& tape : figure.tapes()) {
       double off = std::fabs(tape_girth(result.mesh, figure, tape) - tape.target);
-      if (off > result.worst) result.worst = off, result.worst_level = tape.level;
+      if (off > result.worst) result.worst = off, result.worst_tape = tape;
     }
     if (result.worst < kGirthGoal || round == kMeshRounds) break;
     adjust(figure, [&](const Tape& t) { return tape_girth(result.mesh, figure, t); });
     project(half, field, 2);
   }
-  stand(half);
+  for (const Tape& tape : figure.tapes())
+    result.levels[tape.level] = {figure.tape_plane(tape).origin.y(), tape_girth(result.mesh, figure, tape)};
+  double above = stand(half);
+  for (auto& [name, level] : result.levels) level.height -= above;
   result.mesh = mirror(half);
-  result.tapes = figure.tapes();
-  result.crotch = figure.crotch_height();
-  result.armpit = figure.armpit_height();
   return result;
 }
 

@@ -16,11 +16,10 @@ struct MeasuresResult {
 MeasuresResult check_measures(const design::Mannequin& mannequin, const std::string& name, OriginId origin);
 
 struct MannequinResult {
-  TriangleMesh mesh;        ///< watertight, outward, exactly mirror-symmetric; soles at y = 0
-  std::vector<Tape> tapes;  ///< where the girths were measured
-  double worst = 0;         ///< largest difference of a measured girth from its tape, m
-  std::string worst_level;
-  double crotch = 0, armpit = 0;
+  TriangleMesh mesh;                    ///< watertight, outward, exactly mirror-symmetric; soles at y = 0
+  std::map<std::string, Level> levels;  ///< where the tapes lie, with the girths measured there
+  double worst = 0;                     ///< largest difference of a measured girth from its tape, m
+  Tape worst_tape;
 };
 
 /// Builds the surface and turns the figure's knobs until every girth measured on the mesh is within 0.3 mm of
