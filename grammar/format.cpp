@@ -45,6 +45,7 @@ class Layout {
     if (token.kind == TokenKind::comment) return after_operand_;
     if (token.kind == TokenKind::sign) return token.text == ")" || token.text == "]" || token.text == "}";
     bool is_member = i_ > 0 && previous()->text == ".";
+    if (token.begins_statement) return false;
     return token.kind != TokenKind::word || is_member || !is_operator_word(token.text);
   }
 
@@ -82,7 +83,8 @@ class Layout {
     int depth = blocks_;
     if (leading && leading->closes_block && !is_comment)
       --depth;
-    else if (leading && !leading->begins_statement && !leading->closes_block && leading->text != ";")
+    else if (leading && !leading->begins_statement && !leading->closes_block && leading->text != ";" &&
+             leading->text != "else")
       depth += continuation_depth(*leading);
     out_.append(static_cast<std::size_t>(kIndent * depth), ' ');
   }
@@ -113,9 +115,9 @@ class Layout {
     if (token.kind == TokenKind::unit) return b == "%";
     if (sign_now && (b == "," || b == ";" || b == ")" || b == "]" || b == ":" || b == ".")) return true;
     if (sign_before && (a == "(" || a == "[" || a == ".")) return true;
+    if (after_prefix_) return true;
     if (sign_now && (b == "(" || b == "[")) return after_operand_ && !token.blank_before;
     if (sign_before && sign_now && a == "{" && b == "}") return true;
-    if (after_prefix_) return true;
     if (sign_now && b == "^") return before.kind != TokenKind::unit;
     return sign_before && a == "^" && !power_is_spaced();
   }

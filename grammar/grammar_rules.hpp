@@ -62,7 +62,8 @@ struct name_hole_open : seq<one<'{'>, not_at<one<' ', '\t', '\r', '\n', '}', '#'
 struct name_hole_value : seq<expression> {};
 struct name_hole_close : one<'}'> {};
 struct name_hole : if_must<name_hole_open, name_hole_value, name_hole_close> {};
-struct name : seq<name_word, star<sor<name_hole, name_text>>> {};
+struct record_begins : seq<sor<with_word, else_word>, one<'{'>> {};
+struct name : seq<not_at<record_begins>, name_word, star<sor<name_hole, name_text>>> {};
 
 // ---- numbers: 12, 0.5, 1.2e-3, each with an optional unit: 58 cm, 50%, 0.12 gf*cm^2/cm
 struct digits : plus<digit> {};

@@ -53,12 +53,15 @@ std::size_t end_of_number(std::string_view text, std::size_t at) {
 
 /// A name with its `{expr}` parts is one token: nothing in it may move.
 std::size_t end_of_name(std::string_view text, std::size_t at) {
+  const std::size_t begin = at;
   while (at < text.size()) {
     if (is_word_char(text[at])) {
       ++at;
       continue;
     }
-    bool is_hole = text[at] == '{' && at + 1 < text.size() && !is_blank(text[at + 1]) &&
+    std::string_view word = text.substr(begin, at - begin);
+    bool is_hole = word != "with" && word != "else" && text[at] == '{' && at + 1 < text.size() &&
+                   !is_blank(text[at + 1]) &&
                    std::string_view("\n}#").find(text[at + 1]) == std::string_view::npos;
     if (!is_hole) break;
     int open = 0;

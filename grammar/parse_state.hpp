@@ -58,7 +58,8 @@ class ParseState {
   bool not_stopped() const { return !stopped_; }
   /// The block just read has no }: its statement ends before the next one.
   bool block_left_open() const { return left_open_; }
-  /// At a line end: the deeper next line begins with a keyword of this statement's block, but the { is missing.
+  /// At a line end: the deeper next line begins with a keyword of this statement's block, but the { is
+  /// missing.
   bool block_begins_below(std::size_t at) const;
   bool declares_name() const;
   bool has_body() const;

@@ -23,16 +23,16 @@ enum class ExprKind : std::uint8_t {
   member,  ///< children[0] . text            front.side; further children are the parts of a name with braces
   range_index,  ///< children[0] [ children[1] .. children[2] ]; a missing end is kind `none`
   index,        ///< children[0] [ children[1] ]
-  call,  ///< children[0] ( arguments ); argument i is children[i+1], its name labels[i] ("" if positional);
-         ///< an argument `long: length = 60 cm` (a parameter with default) is a binary "=" of type and
-         ///< default
-  unary,        ///< text is "-", "+", "not", "minus"
-  binary,       ///< text is + - * / ^ == != < <= > >= and or minus is
-  range,        ///< children[0] .. children[1]
-  list,         ///< [a, b, c]
-  record,       ///< { key = value, ... }: labels and children; only after `=` or `with`
-  with,         ///< children[0] with record children[1]
-  point,        ///< (x, y) or (x, y, z)
+  call,    ///< children[0] ( arguments ); argument i is children[i+1], its name labels[i] ("" if positional);
+           ///< an argument `long: length = 60 cm` (a parameter with default) is a binary "=" of type and
+           ///< default
+  unary,   ///< text is "-", "+", "not", "minus"
+  binary,  ///< text is + - * / ^ == != < <= > >= and or minus is
+  range,   ///< children[0] .. children[1]
+  list,    ///< [a, b, c]
+  record,  ///< { key = value, ... }: labels and children; only after `=` or `with`
+  with,    ///< children[0] with record children[1]
+  point,   ///< (x, y) or (x, y, z)
   conditional,  ///< if children[0] { children[1] } else { children[2] }
   none,         ///< an end of a range that was left out
   error,        ///< could not be parsed; a diagnostic was given
@@ -80,11 +80,11 @@ struct Statement {
   std::vector<Clause> clauses;  ///< in the order written
   std::optional<Block> body;
   std::optional<Block> else_body;  ///< of `if`
-  Span body_span;  ///< from its { to its }
-  Span else_span;  ///< the same of `else { }`; empty for `else if`
-  std::string doc;      ///< text of the `##` lines above, newline-joined
-  Span span;            ///< whole statement
-  bool broken = false;  ///< had a syntax error; a diagnostic was given; not to be evaluated
+  Span body_span;                  ///< from its { to its }
+  Span else_span;                  ///< the same of `else { }`; empty for `else if`
+  std::string doc;                 ///< text of the `##` lines above, newline-joined
+  Span span;                       ///< whole statement
+  bool broken = false;             ///< had a syntax error; a diagnostic was given; not to be evaluated
 };
 
 struct Script {
