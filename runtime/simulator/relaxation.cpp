@@ -201,6 +201,7 @@ double Relaxation::residual(const Vectors& x, Vectors& force) {
   add_external_forces(x, force);
   collect_normal_forces(x);
   add_contacts(x, force, false);
+  holds_.filter(force);  // first, or friction would spend its strength on what the holds carry
   friction_.absorb(force);
   holds_.filter(force);
   return rms_over_weight(force);
