@@ -12,6 +12,7 @@ namespace {
 using model::Index;
 using model::Vector3d;
 
+constexpr float kFloorWidth = 4;        // m, bodies wider than this both ways are floors
 constexpr double kCreaseCosine = 0.77;  // about 40 degrees
 
 void add_cloth(Scene& scene, const model::Model& m, const model::State& state) {
@@ -99,7 +100,7 @@ Scene make_scene(const model::Model& m, const model::State& state, const std::ve
       low = low.cwiseMin(p.cast<float>());
       high = high.cwiseMax(p.cast<float>());
     }
-    if (high[0] - low[0] > 8 * width && high[2] - low[2] > 8 * width) {
+    if (std::min(high[0] - low[0], high[2] - low[2]) > std::max(kFloorWidth, 1.5f * width)) {
       scene.floor_y = floor_given ? std::max(scene.floor_y, high[1]) : high[1];
       floor_given = true;
       continue;

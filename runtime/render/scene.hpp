@@ -29,7 +29,8 @@ struct Scene {
   Vec3 low{0, 0, 0}, high{0, 0, 0};  ///< of the cloth
 };
 
-/// Bodies more than 8 times as wide as the cloth (floors) become the studio's floor instead of a mesh.
+/// Bodies more than 4 m wide both ways, and half as wide again as the cloth, are floors: they become the
+/// studio's floor instead of a mesh. studio's floor instead of a mesh.
 Scene make_scene(const model::Model& model, const model::State& state, const std::vector<body::Body>& bodies);
 
 /// sRGB 0..1 to linear.

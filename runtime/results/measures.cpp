@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "runtime/base/hash.hpp"
 #include "runtime/base/parallel.hpp"
 
 namespace garment::results {
@@ -101,14 +100,6 @@ std::optional<double> draped_length(const Model& m, const State& state, Index pa
   for (std::size_t k = 1; k < places.size(); ++k)
     length += (state.position[places[k].particle] - state.position[places[k - 1].particle]).norm();
   return length;
-}
-
-std::string state_hash(const State& state) {
-  Sha256 sum;
-  for (const auto* values : {&state.position, &state.velocity})
-    for (const Vector3d& x : *values)
-      for (int d = 0; d < 3; ++d) sum.add_double(x[d]);
-  return sum.hex();
 }
 
 }  // namespace garment::results

@@ -46,7 +46,4 @@ Measures measure(const model::Model& model, const model::State& state, const std
 std::optional<double> draped_length(const model::Model& model, const model::State& state, model::Index panel,
                                     const geometry::Curve& curve, double from, double to);
 
-/// Fingerprint of the positions and velocities: equal exactly when every bit is.
-std::string state_hash(const model::State& state);
-
 }  // namespace garment::results

@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "runtime/model/dump.hpp"
+
 namespace garment::results {
 namespace {
 
@@ -133,7 +135,7 @@ void fill_results(Report& report, const model::Model& model, const model::State&
   report.triangles = model.n_triangles();
   report.strain = measure_strain(model, state);
   report.measures = measure(model, state, bodies);
-  report.state_hash = state_hash(state);
+  report.state_hash = model::hash_text(model::state_hash(state));
 }
 
 std::string report_json(const Report& r) {
@@ -157,7 +159,7 @@ std::string report_json(const Report& r) {
                     {"seams", seams(r.measures.seams)},
                     {"expects", expects(r.expects)},
                     {"outputs", outputs(r.outputs)},
-                    {"state_sha256", r.state_hash},
+                    {"state_hash", r.state_hash},
                     {"timings", timings(r)}};
   return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -2,7 +2,6 @@
 
 #include <catch2/catch.hpp>
 
-#include "runtime/base/hash.hpp"
 #include "tests/support/grid_model.hpp"
 
 using namespace garment;
@@ -42,12 +41,50 @@ TEST_CASE("sizes of a sheet that is pulled to twice its width", "[measures]") {
   CHECK_FALSE(results::draped_length(m, s, 0, geometry::Curve({5, 5}, {6, 5}), 0, 1).has_value());
 }
 
-TEST_CASE("the state hash sees every bit and nothing else", "[measures]") {
-  const model::Model m = test::make_sheet({});
-  State a = start(m), b = a;
-  CHECK(results::state_hash(a) == results::state_hash(b));
-  b.time = 3;
-  CHECK(results::state_hash(a) == results::state_hash(b));
-  b.position[1][2] = 5e-324;
-  CHECK(results::state_hash(a) != results::state_hash(b));
+namespace {
+
+/// Bodies without files.
+class NoFiles : public Host {
+ public:
+  HostResult<std::string> read_file(const std::string&, std::uint64_t) override {
+    return {{}, {"no such file"}};
+  }
+  HostResult<bool> write_file(const std::string&, std::string_view) override { return {{}, {"no folder"}}; }
+  double seconds() override { return 0; }
+  bool interrupted() override { return false; }
+  std::uint64_t peak_memory() override { return 0; }
+};
+
+body::Body sphere(double radius, const Vector3d& at) {
+  design::Body declared;
+  declared.name = "ball";
+  declared.shape = design::Sphere{radius};
+  declared.position = at;
+  NoFiles host;
+  body::BodyResult built = body::build_body(declared, host, "");
+  REQUIRE(built.body.has_value());
+  return *built.body;
+}
+
+}  // namespace
+
+TEST_CASE("clearance is the distance to the nearest body, negative inside", "[measures]") {
+  test::SheetSpec spec;
+  spec.nx = 11;
+  spec.ny = 11;
+  spec.plane = test::SheetPlane::horizontal;
+  const model::Model m = test::make_sheet(spec);  // 0.1 m x 0.1 m at y = 0
+  const State s = start(m);
+  const Vector3d below(0.05, -0.13, -0.05);
+  const auto far = results::measure(m, s, {sphere(0.1, below)}).all.clearance;
+  REQUIRE(far.has_value());
+  CHECK(far->least == Approx(0.03).margin(0.001));  // the surface is faceted
+  CHECK(far->mean > far->least);
+  CHECK(far->mean < 0.05);
+  const auto nearest =
+      results::measure(m, s, {sphere(0.1, below), sphere(0.05, {0.05, 0.06, -0.05})}).all.clearance;
+  CHECK(nearest->least == Approx(0.01).margin(0.001));
+  const auto inside = results::measure(m, s, {sphere(0.1, {0.05, -0.09, -0.05})}).all.clearance;
+  CHECK(inside->least == Approx(-0.01).margin(0.001));
+  CHECK_FALSE(results::measure(m, s, {sphere(0.1, {5, 0, 0})}).all.clearance.has_value());
 }

@@ -48,7 +48,7 @@ TEST_CASE("the report holds what was measured", "[report]") {
   CHECK(j["garment"]["clearance"].is_null());
   CHECK(j["expects"][0]["value"] == 0.031);
   CHECK(j["expects"][1]["value"].is_null());
-  CHECK(j["state_sha256"].get<std::string>().size() == 64);
+  CHECK(j["state_hash"].get<std::string>().size() == 16);
   CHECK(j["timings"]["seconds"]["drape"] == 3.0);
 }
 
