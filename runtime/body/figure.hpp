@@ -94,6 +94,7 @@ class Figure {
   std::vector<LimbKnot> leg_knots_, arm_knots_;
   Limb leg_, arm_;
   Vector3d shoulder_, arm_axis_, arm_across_;
+  double chest_breadth_ = 0;  ///< half of it, at the bust, without breasts
   int bust_tape_ = -1;
   Ellipsoid breast_, cranium_, jaw_, foot_, heel_;
   // Trunk table: radius by row (height) and column (angle from +z), centre and slope by row.

@@ -81,6 +81,7 @@ void Figure::lay_out_trunk() {
   HalfAxes under_axes = super_ellipse(under_girth, 1.36, 2.5);
   HalfAxes rib = super_ellipse(rib_girth, m_.woman ? 1.36 : 1.29, 2.5),
            collar = ellipse(m_.neckcircumference, 0.98);
+  chest_breadth_ = rib.across;
   double acromion = 0.5 * m_.biacromialbreadth, base = 1.10 * m_.neckcircumferencebase / (2 * kPi);
   double shoulder_top = m_.acromialheight - 0.004 * s;
   double tangent = portable::tan(kShoulderSlope * kPi / 180);
@@ -98,8 +99,8 @@ void Figure::lay_out_trunk() {
        -0.010, 3.1, hip);
   knot(m_.waistheightomphalion, 0.5 * m_.waistbreadth, 0.5 * m_.waistdepth, 0.006, 2.8);
   knot(waist_y, waist_axes.across, waist_axes.along, 0.009, 2.8, waist);
-  knot(under_y, under_axes.across, under_axes.along, 0.000, 2.5, under);
-  knot(m_.chestheight, rib.across, rib_depth, -0.009, 2.5, m_.woman ? -1 : bust);
+  knot(under_y, under_axes.across, under_axes.along, m_.woman ? 0.000 : -0.006, 2.5, under);
+  knot(m_.chestheight, rib.across, rib_depth, m_.woman ? -0.009 : -0.003, 2.5, m_.woman ? -1 : bust);
   knot(m_.axillaheight, std::max(0.385 * m_.biacromialbreadth, 1.01 * rib.across),
        (m_.woman ? 0.90 : 0.94) * rib_depth, -0.020, 2.4);
   knot(0.5 * (m_.axillaheight + shoulder_top), 0.80 * acromion, 0.76 * rib_depth, -0.027, 2.2);
@@ -160,6 +161,11 @@ void Figure::lay_out_arm() {
   double radius = m_.bicepscircumferenceflexed / (2 * kPi), top = 1.0 * radius;
   shoulder_ = {std::max(0.5 * m_.bideltoidbreadth - 0.90 * top, 0.40 * m_.biacromialbreadth),
                m_.acromialheight - 0.018 * s - 0.85 * top, -0.028 * s};
+  // Where the chest is broad for the shoulders the arms hang farther out: the tape at the bust passes under
+  // them.
+  double clear_y = m_.chestheight + 0.4 * (m_.axillaheight - m_.chestheight);
+  double inner = portable::tan(angle) * (shoulder_.y() - clear_y) - top / portable::cos(angle);
+  shoulder_.x() = std::max(shoulder_.x(), chest_breadth_ + 0.012 - inner);
   double elbow = m_.acromionradialelength - 0.02 * s, wrist = m_.sleeveoutseam - 0.02 * s;
   int biceps_tape = add_tape(Tape::Where::arm, "biceps", 0.52 * elbow, m_.bicepscircumferenceflexed);
   int wrist_tape = add_tape(Tape::Where::arm, "wrist", wrist, m_.wristcircumference);
