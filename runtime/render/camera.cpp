@@ -118,7 +118,12 @@ Camera frame(const Scene& s, View view, float aspect) {
   half_height *= 1.1f;
   Camera c = look(s, view, target, distance);
   const Bounds b = bounds_in(s, c, heights);
-  const float u = 0.5f * (b.low_u + b.high_u), v = 0.5f * (b.low_v + b.high_v);
+  const float u = 0.5f * (b.low_u + b.high_u);
+  // Where the width decides the scale there is room above or below: show more of the bodies there.
+  const Bounds all = bounds_in(s, c, {-1e30f, 1e30f});
+  const float room = half_height / 1.1f;
+  const float v =
+      std::clamp(0.5f * (all.low_v + all.high_v), b.high_v - room, std::max(b.low_v + room, b.high_v - room));
   c.left_edge = u - half_height * aspect;
   c.right_edge = u + half_height * aspect;
   c.bottom_edge = v - half_height;

@@ -78,7 +78,9 @@ Light::Light(const Scene& scene, const Camera& camera) : scene_(scene) {
 
 Visibility Light::measure(const Tracer& tracer, const Hit& hit, int x, int y) const {
   const std::size_t place = kBlock[static_cast<std::size_t>(y & 3) * 4 + static_cast<std::size_t>(x & 3)];
-  const std::size_t set = scramble(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)) % kSets;
+  // One set for a block, so that its pixels together see the box and the dome evenly.
+  const std::size_t set =
+      scramble(static_cast<std::uint32_t>(x >> 2), static_cast<std::uint32_t>(y >> 2)) % kSets;
   const auto [t, b] = tangents(hit.normal);
   const float reach = 0.9f * radius_;
   Visibility seen{0, 0};
@@ -116,9 +118,9 @@ Vec3 Light::shade_surface(const Hit& hit, const Visibility& seen, const Vec3& vi
   const float direct = std::max(0.0f, (n.dot(to_box) + wrap) / (1 + wrap)) * seen.box;
   const float dome = 0.10f + 0.90f * seen.dome * (0.65f + 0.35f * seen.dome);
   const float fill = std::max(0.0f, n.dot(fill_direction_)) * dome;
-  const Vec3 sky(0.44f, 0.46f, 0.50f), ground(0.31f, 0.295f, 0.28f);
+  const Vec3 sky(0.36f, 0.375f, 0.41f), ground(0.26f, 0.245f, 0.23f);
   const Vec3 ambient = (0.5f + 0.5f * n[1]) * sky + (0.5f - 0.5f * n[1]) * ground;
-  const Vec3 key(1.14f, 1.10f, 1.04f);
+  const Vec3 key(0.93f, 0.90f, 0.85f);
   Vec3 color = albedo.cwiseProduct(direct * key + dome * ambient + 0.12f * fill * Vec3(1, 1, 1));
   const float edge = 1 - std::clamp(n.dot(-view), 0.0f, 1.0f);
   color += sheen * edge * edge * edge * dome * (0.6f * albedo + Vec3::Constant(0.08f));
@@ -136,7 +138,7 @@ Vec3 Light::shade(const Hit& hit, const Visibility& seen, const Vec3& view, cons
       return background * (1 - 0.42f * near * (1 - seen.box)) * (1 - 0.55f * near * (1 - seen.dome));
     }
     case Surface::body: {
-      const Vec3 skin = look.strain ? Vec3(0.50f, 0.50f, 0.51f) : Vec3(0.60f, 0.555f, 0.51f);
+      const Vec3 skin = look.strain ? Vec3(0.58f, 0.58f, 0.59f) : Vec3(0.70f, 0.65f, 0.60f);
       Vec3 color = shade_surface(hit, seen, view, skin, 0.25f);
       const Vec3 half = ((box_center_ - hit.point).normalized() - view).normalized();
       const float shine = std::max(0.0f, hit.normal.dot(half));
