@@ -12,11 +12,12 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kLeast = 0.55;   // of h: least distance of border particles
-constexpr double kMost = 1.35;    // of h: largest one
-constexpr double kReach = 3.2;    // of h: farthest candidate looked at
-constexpr double kReward = 0.15;  // of a particle on a grid line, in the cost's own measure
-constexpr double kPenalty = 1e4;  // of a step under kLeast
+constexpr double kLeast = 0.55;    // of h: least distance of border particles
+constexpr double kMost = 1.35;     // of h: largest one
+constexpr double kReach = 3.2;     // of h: farthest candidate looked at
+constexpr double kCollapse = 0.2;  // of h: a stretch shorter than this on all its sides becomes a point
+constexpr double kReward = 0.15;   // of a particle on a grid line, in the cost's own measure
+constexpr double kPenalty = 1e4;   // of a step under kLeast
 
 /// Where a piece crosses the grid lines: position on the piece, and how squarely (square of the sine).
 std::vector<std::array<double, 2>> grid_crossings(const Piece& piece, const GridFrame& frame) {
@@ -183,7 +184,8 @@ Borders make_borders(const std::vector<BorderPanel>& panels, const std::vector<G
   }
   std::vector<std::vector<double>> fractions(matched.n_groups);
   for (int g = 0; g < matched.n_groups; ++g)
-    fractions[g] = choose_fractions(std::move(candidates[g]), spacings[g]);
+    fractions[g] = spacings[g] < kCollapse ? std::vector<double>{0}
+                                           : choose_fractions(std::move(candidates[g]), spacings[g]);
 
   Borders borders;
   borders.panels.resize(panels.size());

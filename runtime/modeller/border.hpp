@@ -46,7 +46,8 @@ struct Border {
 struct Borders {
   std::vector<Border> panels;
   std::vector<int> stretch_first;  ///< of every stretch: its first vertex in its panel's border
-  std::vector<int> stretch_count;  ///< number of its segments
+  std::vector<int>
+      stretch_count;  ///< number of its segments; 0: shorter than 0.2 h, drawn together to one point
 };
 
 Borders make_borders(const std::vector<BorderPanel>& panels, const std::vector<GridFrame>& frames,

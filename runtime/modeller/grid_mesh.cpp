@@ -13,6 +13,7 @@ using Eigen::Vector2d;
 
 constexpr double kClear = 0.45;   // of the spacing: least distance of a crossing from the border
 constexpr double kOnLine = 1e-6;  // of the spacing: a border vertex this near to a crossing is that crossing
+constexpr double kBeside = 0.3;   // of the spacing: a border vertex this near to the side of a cell cuts it
 
 double distance_squared(const Vector2d& x, const Vector2d& a, const Vector2d& b) {
   Vector2d d = b - a;
@@ -185,7 +186,7 @@ class Grid {
       }
       for_each_near(loop_[k], loop_[k], 1, [&](int i, int j) {
         Vector2d d = loop_[k] - Vector2d(i + i0_ + 0.5, j + j0_ + 0.5);
-        if (d.cwiseAbs().maxCoeff() < 0.5 + kOnLine) cut_[at(i, j)] = 1;
+        if (d.cwiseAbs().maxCoeff() < 0.5 + kBeside) cut_[at(i, j)] = 1;
       });
     }
   }

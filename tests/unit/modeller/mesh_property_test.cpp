@@ -95,6 +95,43 @@ TEST_CASE("300 outlines of all kinds of curves give sound meshes of exact mass")
   }
 }
 
+TEST_CASE("the point of a dart may lie anywhere between the grid lines") {
+  for (int i = 0; i <= 10; ++i) {
+    for (int j = 0; j <= 10; ++j) {
+      design::Garment g = test::single(test::rectangle("sheet", 0.2, 0.2, 0.01));
+      design::EdgeDart dart;
+      dart.name = "dart";
+      dart.edge = "top";
+      dart.at = 0.1 + 0.001 * i;
+      dart.width = 0.03;
+      dart.depth = 0.09 + 0.001 * j;
+      g.panels[0].darts = {dart};
+      modeller::ModelResult r = modeller::build_model(g, {});
+      REQUIRE(r.model);
+      INFO("point at " << i << ", " << j << " tenths of a spacing");
+      // the outline itself has angles of about 80 deg at the mouth and none sharper
+      Quality q = quality_of(*r.model, g.panels[0]);
+      CHECK(q.least_angle > 14);
+      CHECK(q.shortest > 0.0025);
+    }
+  }
+}
+
+TEST_CASE("edges far shorter than the grid draw together to a point, and the mass stays exact") {
+  design::Garment g = test::single(test::rectangle("sheet", 0.2, 0.2, 0.01));
+  std::vector<design::Edge>& e = g.panels[0].edges;
+  e = {test::edge("bottom", {0, 0}, {0.2, 0}), test::edge("right", {0.2, 0}, {0.2, 0.2}),
+       test::edge("nick", {0.2, 0.2}, {0.1992, 0.2004}), test::edge("top", {0.1992, 0.2004}, {0, 0.2}),
+       test::edge("left", {0, 0.2}, {0, 0})};
+  modeller::ModelResult r = modeller::build_model(g, {});
+  REQUIRE(r.model);
+  CHECK(quality_of(*r.model, g.panels[0]).shortest > 0.004);
+  double exact = 0, mass = 0;
+  for (const design::Edge& x : e) exact += x.curve.area_term();
+  for (double x : r.model->mass) mass += x;
+  CHECK(mass == Approx(0.2 * exact).epsilon(1e-12));
+}
+
 TEST_CASE("a rectangle along the grain is all full cells") {
   modeller::ModelResult r = modeller::build_model(test::single(test::rectangle("sheet", 0.2, 0.3, 0.01)), {});
   REQUIRE(r.model);
