@@ -1,19 +1,14 @@
 #include "runtime/simulator/linear_solver.hpp"
 
+#include <algorithm>
 #include <cmath>
+
+#include "runtime/base/parallel.hpp"
 
 namespace garment::simulator {
 namespace {
 
-using Vectors = std::vector<Eigen::Vector3f>;
-
-double dot(const Vectors& a, const Vectors& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    sum += static_cast<double>(a[i].x()) * b[i].x() + static_cast<double>(a[i].y()) * b[i].y() +
-           static_cast<double>(a[i].z()) * b[i].z();
-  return sum;
-}
+constexpr std::size_t kGrain = 2048;
 
 }  // namespace
 
@@ -39,29 +34,33 @@ double LinearSolver::multiply(const BlockMatrix& matrix, const std::vector<Conta
 
 LinearResult LinearSolver::solve(const BlockMatrix& matrix, const std::vector<ContactStiffness>& contacts,
                                  const std::vector<Eigen::Vector3d>& b, double tolerance, int max_iterations,
-                                 std::vector<Eigen::Vector3d>& x) {
-  std::size_t n = b.size();
-  preconditioner_.factor(matrix);
+                                 std::vector<Eigen::Vector3d>& x,
+                                 const std::vector<Eigen::Vector3d>* positions) {
+  const std::size_t n = b.size();
+  preconditioner_.factor(matrix, positions);
   r_.resize(n);
   for (std::size_t i = 0; i < n; ++i) r_[i] = holds_.filtered(i, b[i]).cast<float>();
   x_.assign(n, Eigen::Vector3f::Zero());
-  preconditioner_.apply(r_, z_);
+  double rz = preconditioner_.apply(r_, z_);
+  const double start = rz;
   p_ = z_;
-  double rz = dot(r_, z_), start = rz;
   LinearResult result;
   while (result.iterations < max_iterations && rz > tolerance * tolerance * start && rz > 0) {
-    double pAp = multiply(matrix, contacts);
+    const double pAp = multiply(matrix, contacts);
     if (!(pAp > 0)) break;
-    auto alpha = static_cast<float>(rz / pAp);
-    for (std::size_t i = 0; i < n; ++i) {
-      x_[i] += alpha * p_[i];
-      r_[i] -= alpha * Ap_[i];
-    }
-    preconditioner_.apply(r_, z_);
-    double next = dot(r_, z_);
-    auto beta = static_cast<float>(next / rz);
+    const auto alpha = static_cast<float>(rz / pAp);
+    parallel_for(n, kGrain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        x_[i] += alpha * p_[i];
+        r_[i] -= alpha * Ap_[i];
+      }
+    });
+    const double next = preconditioner_.apply(r_, z_);
+    const auto beta = static_cast<float>(next / rz);
     rz = next;
-    for (std::size_t i = 0; i < n; ++i) p_[i] = z_[i] + beta * p_[i];
+    parallel_for(n, kGrain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) p_[i] = z_[i] + beta * p_[i];
+    });
     ++result.iterations;
   }
   result.reduction = start > 0 ? std::sqrt(std::max(rz, 0.0) / start) : 0;

@@ -1,5 +1,6 @@
 #pragma once
-// Preconditioned conjugate gradients on the elastic matrix plus contacts, restricted to what the holds leave free.
+// Preconditioned conjugate gradients on the elastic matrix plus contacts, restricted to what the holds leave
+// free.
 #include <Eigen/Core>
 #include <vector>
 
@@ -9,8 +10,8 @@
 
 namespace garment::simulator {
 
-/// The second derivative of one contact's energy: stiffness * g gT with g = (w_0 n, ..., w_3 n). Kept apart from the
-/// matrix because contacts come and go. Particles with id -1 do not move (they belong to a body).
+/// The second derivative of one contact's energy: stiffness * g gT with g = (w_0 n, ..., w_3 n). Kept apart
+/// from the matrix because contacts come and go. Particles with id -1 do not move (they belong to a body).
 struct ContactStiffness {
   model::Index particle[4];
   float weight[4];
@@ -25,13 +26,17 @@ struct LinearResult {
 
 class LinearSolver {
  public:
-  LinearSolver(const BlockPattern& pattern, const Holds& holds) : holds_(holds), preconditioner_(pattern, holds) {}
+  LinearSolver(const BlockPattern& pattern, const Holds& holds)
+      : holds_(holds), preconditioner_(pattern, holds) {}
 
-  /// Solves (matrix + contacts) x = b. The diagonal blocks of the contacts must already be added to `matrix`, their
-  /// off-diagonal part is applied from `contacts`. Stops at `tolerance` or `max_iterations`. x starts at zero.
+  /// Solves (matrix + contacts) x = b. The diagonal blocks of the contacts must already be added to `matrix`,
+  /// their off-diagonal part is applied from `contacts`. Stops at `tolerance` or `max_iterations`. x starts
+  /// at zero. `positions` says where the particles are; without it the solver takes two to five times the
+  /// iterations. The same bits for any number of threads.
   LinearResult solve(const BlockMatrix& matrix, const std::vector<ContactStiffness>& contacts,
                      const std::vector<Eigen::Vector3d>& b, double tolerance, int max_iterations,
-                     std::vector<Eigen::Vector3d>& x);
+                     std::vector<Eigen::Vector3d>& x,
+                     const std::vector<Eigen::Vector3d>* positions = nullptr);
 
  private:
   double multiply(const BlockMatrix& matrix, const std::vector<ContactStiffness>& contacts);

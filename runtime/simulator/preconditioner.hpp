@@ -1,45 +1,57 @@
 #pragma once
-// Two-level additive preconditioner: inverse 3x3 diagonal blocks, plus an exact solve over aggregates of about 16
-// particles that move as one (design "physics", section 3.2, point 3).
+// Two-level additive preconditioner: inverse 3x3 diagonal blocks, plus an exact solve over aggregates of
+// particles that move as rigid pieces (design "physics", section 3.2, point 3).
 #include <Eigen/Core>
-#include <Eigen/SparseCholesky>
-#include <Eigen/SparseCore>
+#include <array>
 #include <vector>
 
+#include "runtime/simulator/aggregates.hpp"
+#include "runtime/simulator/block_cholesky.hpp"
 #include "runtime/simulator/block_matrix.hpp"
 #include "runtime/simulator/holds.hpp"
 
 namespace garment::simulator {
 
+/// M^-1 = D^-1 + Q (Q^T A Q)^-1 Q^T. D holds the diagonal blocks of A; Q gives every aggregate three
+/// translations and three rotations about its middle. Cloth bends a thousand times easier than it stretches:
+/// its soft motions are pieces that turn, which translations alone cannot follow.
+///
+///   row of particle i in aggregate a:   Q_ia = P_i [ 1   -[d_i]x ],   d_i = (x_i - middle_a) / radius_a,
+///
+/// P_i being what the hold of i leaves free. Without positions the rotations are left out.
 class Preconditioner {
  public:
-  /// Groups the particles once; the pattern must stay that of the matrices given to `factor`.
+  /// `pattern` must stay that of the matrices given to `factor`; it and `holds` must outlive this.
   Preconditioner(const BlockPattern& pattern, const Holds& holds);
 
-  /// Prepares for one matrix. Returns false when the coarse matrix is not positive definite (then only the diagonal
-  /// blocks are used).
-  bool factor(const BlockMatrix& matrix);
+  /// Prepares for one matrix, with the particles at `positions` [n] (nullptr: not known). The first call, and
+  /// the first one with positions, groups the particles.
+  void factor(const BlockMatrix& matrix, const std::vector<Eigen::Vector3d>* positions = nullptr);
 
-  /// z = M^-1 r, both [n], filtered by the holds.
-  void apply(const std::vector<Eigen::Vector3f>& r, std::vector<Eigen::Vector3f>& z);
+  /// z = M^-1 r, both [n], filtered by the holds; r must be filtered. Returns r . z, accumulated in double.
+  /// The same bits for any number of threads.
+  double apply(const std::vector<Eigen::Vector3f>& r, std::vector<Eigen::Vector3f>& z);
+
+  const Aggregates& aggregates() const { return groups_; }
 
  private:
-  void group(const BlockPattern& pattern);
-  void make_coarse_pattern(const BlockPattern& pattern);
+  void group(const std::vector<Eigen::Vector3d>* positions);
+  void make_coarse_pattern();
+  void place(const std::vector<Eigen::Vector3d>* positions);
+  void gather_coarse_row(const BlockMatrix& matrix, std::size_t a);
 
+  const BlockPattern& pattern_;
   const Holds& holds_;
-  std::vector<int> aggregate_;                 ///< of each particle, -1 for fixed ones
-  int n_aggregates_ = 0;
-  std::vector<int> block_target_;              ///< for block k of the fine pattern: coarse block, -1 none
-  std::vector<int> diagonal_target_;           ///< coarse diagonal block of each aggregate
-  std::vector<std::array<int, 2>> coarse_blocks_;  ///< (row, column), row >= column
-  std::vector<Eigen::Matrix3d> coarse_values_;
-  std::vector<std::array<int, 9>> coarse_slots_;   ///< where the nine numbers of a block stand in the sparse matrix
-  Eigen::SparseMatrix<double> coarse_;
-  Eigen::SimplicialLLT<Eigen::SparseMatrix<double>, Eigen::Lower, Eigen::AMDOrdering<int>> cholesky_;
-  bool coarse_ready_ = false;
+  Aggregates groups_;
+  bool grouped_ = false, rounded_ = false;
+  std::vector<int> coarse_begin_;                  // [n_groups + 1]; the last block of a row is its diagonal
+  std::vector<std::array<int, 2>> coarse_places_;  // (row, column), column <= row, sorted
+  std::vector<int> target_;                        // for each block of the pattern: its coarse block, -1 none
+  std::vector<BlockCholesky::Block> coarse_;
+  BlockCholesky cholesky_;
+  std::vector<BlockCholesky::Vector> coarse_r_;
+  std::vector<Eigen::Vector3f> offset_;  // d of each particle
   std::vector<Eigen::Matrix3f> inverse_diagonal_;
-  Eigen::VectorXd coarse_r_, coarse_z_;
 };
 
 }  // namespace garment::simulator

@@ -1,0 +1,66 @@
+#pragma once
+// A linear system of the drape for tests and benchmarks: a crumpled hanging sheet, one implicit step.
+#include <cstdint>
+#include <vector>
+
+#include "runtime/simulator/elastic.hpp"
+#include "runtime/simulator/holds.hpp"
+#include "runtime/simulator/linear_solver.hpp"
+#include "tests/support/grid_model.hpp"
+
+namespace garment::test {
+
+/// Numbers in [-0.5, 0.5), the same everywhere.
+class Noise {
+ public:
+  explicit Noise(std::uint64_t seed) : seed_(seed) {}
+  double operator()() {
+    seed_ = seed_ * 6364136223846793005ULL + 1442695040888963407ULL;
+    return static_cast<double>(seed_ >> 11) / 9007199254740992.0 - 0.5;
+  }
+  Eigen::Vector3d vector() {
+    const double a = (*this)(), b = (*this)(), c = (*this)();
+    return {a, b, c};
+  }
+
+ private:
+  std::uint64_t seed_;
+};
+
+/// (elastic Hessian + M / time_step^2) x = force, at positions that are waved and uneven.
+struct LinearCase {
+  LinearCase(model::Model m, double time_step, double unevenness = 0.3)
+      : model(std::move(m)), holds(model), elastic(model), matrix(elastic.make_matrix()), x(model.start) {
+    Noise noise(7);
+    const double h = model.spring_rest.empty() ? 0.01 : model.spring_rest.front();
+    for (Eigen::Vector3d& p : x) {
+      p = 1.002 * p + Eigen::Vector3d(0, 0, 1.5 * h * std::sin(0.4 * p.x() / h) * std::cos(0.3 * p.y() / h));
+      p += unevenness * h * Eigen::Vector3d(0.02 * noise(), 0.02 * noise(), noise());
+    }
+    elastic.energy_force_hessian(x, force, matrix);
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      force[i] += model.mass[i] * model.gravity;
+      matrix.add_diagonal(i, model.mass[i] / (time_step * time_step));
+    }
+    holds.filter(force);
+  }
+  /// Adds a contact with its diagonal blocks.
+  void add_contact(const simulator::ContactStiffness& c) {
+    contacts.push_back(c);
+    for (int k = 0; k < 4; ++k)
+      if (c.particle[k] >= 0)
+        matrix.add_diagonal(
+            static_cast<std::size_t>(c.particle[k]),
+            Eigen::Matrix3d(
+                (c.stiffness * c.weight[k] * c.weight[k] * c.normal * c.normal.transpose()).cast<double>()));
+  }
+
+  model::Model model;
+  simulator::Holds holds;
+  simulator::ElasticModel elastic;
+  simulator::BlockMatrix matrix;
+  std::vector<simulator::ContactStiffness> contacts;
+  std::vector<Eigen::Vector3d> x, force;
+};
+
+}  // namespace garment::test
