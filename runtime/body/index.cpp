@@ -209,19 +209,6 @@ double fast_winding(const Index& index, const Vector3d& p) {
   return sum + far_sum / (4 * portable::kPi);
 }
 
-/// Triangles whose outer side lies inside another part (a scanned hand that sinks into the hip) are no
-/// surface to touch: without this a particle near them would be pushed deeper in.
-void mark_covered(Body& body, Index& index) {
-  parallel_for(index.leaves.size(), 512, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      Index::Leaf& leaf = index.leaves[i];
-      const Vector3d& normal = index.normals[leaf.triangle][static_cast<int>(Feature::face)];
-      Vector3d p = (leaf.corner[0] + leaf.corner[1] + leaf.corner[2]) / 3 + 1e-6 * index.length * normal;
-      leaf.covered = body.winding(p) >= 0.5;
-    }
-  });
-}
-
 }  // namespace
 
 void build_index(Body& body) {

@@ -53,6 +53,11 @@ struct Body::Index {
   double length = 0;                             ///< diagonal of the box of the body, m
 };
 
+/// Sets `covered` on triangles whose outer side lies inside another part (a scanned hand that sinks into the
+/// hip): they are no surface to touch, a particle near them would be pushed deeper in. All else of `index`
+/// must be made.
+void mark_covered(const Body& body, Body::Index& index);
+
 /// Solid angle of triangle abc seen from p over 4 pi, signed: positive where its outer side looks away from
 /// p.
 double solid_angle(const Vector3d& p, const Vector3d& a, const Vector3d& b, const Vector3d& c);
