@@ -88,8 +88,17 @@ Curve::Curve(Point2 start, Point2 end, Shape shape) : start_(start), end_(end), 
       piece.half = 2 * portable::atan(2 * arc->bulge / chord);
     pieces_.push_back(piece);
   }
-  table_s_.push_back(0);
-  table_t_.push_back(0);
+  make_table();
+  if (std::isfinite(length())) return;
+  // Numbers that no drawing has (infinite, or so large that squares overflow): keep a length that can be
+  // worked with.
+  pieces_.clear();
+  make_table();
+}
+
+void Curve::make_table() {
+  table_s_.assign(1, 0);
+  table_t_.assign(1, 0);
   for (std::size_t i = 0; i < pieces_.size(); ++i) {
     const Piece& piece = pieces_[i];
     if (!piece.bezier) {

@@ -34,6 +34,7 @@ class Curve {
   using Shape = std::variant<Line, Quadratic, Cubic, Arc, Through>;
 
   Curve() = default;  ///< a line of no length at the origin
+  /// Control points that are not finite, or beyond about 1e150 m, make a curve of no length at `start`.
   Curve(Point2 start, Point2 end, Shape shape = Line{});
 
   const Point2& start() const { return start_; }
@@ -78,6 +79,7 @@ class Curve {
   };
   void add_through(const std::vector<Point2>& interior);
   void add_bezier(const Point2& p0, const Point2& p1, const Point2& p2, const Point2& p3);
+  void make_table();
   void add_table(std::size_t piece, double t0, double t1, double whole, double scale, int depth);
   double length_to(double t) const;  // t in [0, number of pieces]
   double parameter_at(double s) const;
