@@ -8,6 +8,7 @@
 #include <set>
 #include <sstream>
 
+#include "runtime/base/parallel.hpp"
 #include "runtime/base/portable_math.hpp"
 #include "runtime/body/anatomy.hpp"
 #include "runtime/body/measure.hpp"
@@ -191,8 +192,12 @@ TEST_CASE("a mannequin looks like a person") {
 TEST_CASE("a mannequin is the same on every run and thread count") {
   for (const SizeRow& row : size_table()) {
     if (row.person.size != 40) continue;
+    int threads = thread_count();
+    set_thread_count(1);
     MannequinResult a = build_mannequin(*check_measures(row.person, "a", {}).measures);
+    set_thread_count(4);
     MannequinResult b = build_mannequin(*check_measures(row.person, "b", {}).measures);
+    set_thread_count(threads);
     CHECK(a.mesh.vertices == b.mesh.vertices);
     CHECK(a.mesh.triangles == b.mesh.triangles);
   }
