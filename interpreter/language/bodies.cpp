@@ -1,0 +1,127 @@
+#include "interpreter/language/bodies.hpp"
+
+#include <algorithm>
+
+#include "interpreter/language/clauses.hpp"
+
+namespace garment::interpreter {
+namespace {
+
+std::vector<std::string> level_names(const body::Body& body) {
+  std::vector<std::string> names;
+  for (const auto& [name, level] : body.levels) names.push_back(name);
+  return names;
+}
+
+std::vector<std::string> part_names(const body::Body& body) {
+  std::vector<std::string> names;
+  for (const auto& [name, part] : body.parts) names.push_back(name);
+  return names;
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+std::string help_for(const std::string& name, const std::vector<std::string>& names,
+                     const std::string& what) {
+  std::string hint = did_you_mean(name, names);
+  if (hint.empty())
+    hint = names.empty() ? "a plain shape has no " + what : "its " + what + " are " + listed(names);
+  return hint;
+}
+
+bool is_side(std::string_view path) {
+  return path == "front" || path == "back" || path == "left" || path == "right";
+}
+
+}  // namespace
+
+Value evaluate_body(Program& program, Declaration& declaration) {
+  const Statement& statement = *declaration.statement;
+  Scope& scope = *declaration.scope;
+  design::Body& made = program.garment.bodies[static_cast<std::size_t>(declaration.index)];
+  made.name = declaration.name;
+  made.origin = program.origin(statement.span);
+  Clauses clauses(program, statement, scope, &declaration.overrides);
+  const Expr& expr = clauses.value(clauses.need("="));
+  const Value value = eval(program, expr, scope);
+  const auto* shape = value.as<ShapeValue>();
+  if (shape == nullptr)
+    fail(program,
+         Message("G0306", kind_of(value) + " where `body` takes a shape", expr.span)
+             .help("shapes are bodies.woman(...), bodies.man(...), mesh(\"file.obj\"), sphere, ellipsoid, "
+                   "cylinder, box, floor"));
+  made.shape = shape->shape;
+  if (const BoundClause* at = clauses.find("at")) {
+    const PointValue p = eval_point(program, clauses.value(*at), *at->scope, 3, kLength, "`at`");
+    made.position = {p.at[0], p.at[1], p.at[2]};
+  }
+  if (const auto friction = clauses.quantity("friction")) made.friction = *friction;
+  clauses.finish();
+  return Value{BodyValue{declaration.index}};
+}
+
+const body::Body* built_body(Program& program, int index, Span asked_at) {
+  const std::size_t k = static_cast<std::size_t>(index);
+  if (program.built[k] != nullptr) return program.built[k].get();
+  if (program.build_failed[k]) return nullptr;
+  const design::Body& declared = program.garment.bodies[k];
+  body::BodyResult result =
+      program.options.build_body
+          ? program.options.build_body(declared, program.host, program.options.script_dir)
+          : body::build_body(declared, program.host, program.options.script_dir);
+  for (Diagnostic& diagnostic : to_diagnostics(result.findings, program.origins)) {
+    if (diagnostic.labels.empty()) diagnostic.labels.push_back({asked_at, ""});
+    Message message("", "", asked_at);
+    message.diagnostic = std::move(diagnostic);
+    report(program, std::move(message));
+  }
+  if (!result.body) {
+    program.build_failed[k] = true;
+    if (result.findings.empty()) report(program, Message("G0306", "the body cannot be built", asked_at));
+    return nullptr;
+  }
+  program.built[k] = std::make_shared<const body::Body>(std::move(*result.body));
+  return program.built[k].get();
+}
+
+Value body_member(Program& program, const Expr& expr, int index, const std::string& path,
+                  const std::string& name) {
+  if (path.empty() || (name != "girth" && name != "height"))
+    return Value{BodyPlaceValue{index, path.empty() ? name : path + '.' + name}};
+  const body::Body* body = built_body(program, index, expr.span);
+  if (body == nullptr) throw Stop{};
+  const auto level = body->levels.find(path);
+  if (level == body->levels.end())
+    fail(program,
+         Message("G0611", "body `" + body->name + "` has no level `" + path + "`", expr.children[0].span)
+             .help(help_for(path, level_names(*body), "levels")));
+  return number_value(name == "girth" ? level->second.girth : level->second.height, kLength);
+}
+
+std::string checked_level(Program& program, const BodyPlaceValue& place, Span span) {
+  const body::Body* body = built_body(program, place.body, span);
+  if (body == nullptr) throw Stop{};
+  if (!body->levels.contains(place.path))
+    fail(program, Message("G0611", "body `" + body->name + "` has no level `" + place.path + "`", span)
+                      .help(help_for(place.path, level_names(*body), "levels")));
+  return place.path;
+}
+
+std::string checked_part(Program& program, const BodyPlaceValue& place, Span span, bool side) {
+  const body::Body* body = built_body(program, place.body, span);
+  if (body == nullptr) throw Stop{};
+  std::vector<std::string> names = part_names(*body);
+  const bool torso = body->parts.contains("torso");
+  if (side && torso) names.insert(names.end(), {"front", "back", "left", "right"});
+  const bool good = is_side(place.path) ? side && torso : body->parts.contains(place.path);
+  if (!good)
+    fail(program, Message("G0611", "body `" + body->name + "` has no part `" + place.path + "`", span)
+                      .help(help_for(place.path, names, "parts")));
+  return place.path;
+}
+
+}  // namespace garment::interpreter

@@ -1,0 +1,59 @@
+#pragma once
+// The one record of every construct and every builtin function. The parser's vocabulary, argument checks,
+// did-you-mean, help and the reference page are all made from it.
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "grammar/syntax_tree.hpp"
+#include "interpreter/language/units.hpp"
+
+namespace garment::interpreter {
+
+/// A clause word and what it takes. Where it takes one quantity, `dimension`, `min` and `max` (SI) are
+/// checked when the clause is read; min > max means "no bounds".
+struct ClauseRecord {
+  std::string_view word;
+  std::string_view takes;  ///< "LENGTH", "POINT", "EDGE"; empty: the word stands alone
+  std::string_view doc;
+  Dimension dimension{};
+  double min = 1, max = 0;
+  std::string_view standard{};  ///< what is taken when the clause is left out, as text
+};
+
+struct ConstructRecord {
+  std::string_view keyword;
+  bool declares_name = false;
+  std::string_view form;  ///< the statement's shape: "pin NAME on PANEL at POINT"
+  std::string_view doc;
+  std::string_view example;
+  std::vector<ClauseRecord> clauses{};
+  bool has_body = false;
+  std::vector<std::string_view> body_keywords{};
+  bool top = true;          ///< stands at the top level
+  bool supported = true;    ///< otherwise a known word whose meaning is still to come
+  bool in_library = false;  ///< may stand in a used file
+};
+
+/// Every construct, in the order of the reference.
+const std::vector<ConstructRecord>& construct_table();
+const ConstructRecord* find_construct(std::string_view keyword);
+const ClauseRecord* find_clause(const ConstructRecord& construct, std::string_view word);
+
+/// What the parser must know, made from the table.
+const grammar::Vocabulary& vocabulary();
+
+/// Text for `:help NAME`: form, doc, clauses with range and default, example. Empty if there is no such word.
+std::string help_text(std::string_view name);
+
+/// The name of `candidates` nearest to `name`, if it is near enough to be a slip; else empty.
+std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates);
+/// "did you mean `x`?" or empty.
+std::string did_you_mean(std::string_view name, const std::vector<std::string>& candidates);
+
+namespace detail {
+std::vector<ConstructRecord> garment_constructs();
+std::vector<ConstructRecord> later_constructs();
+}  // namespace detail
+
+}  // namespace garment::interpreter

@@ -1,0 +1,96 @@
+// Words of the language whose meaning is still to come. They parse, and then give one coded error; so a
+// script never means less than it says.
+#include <initializer_list>
+
+#include "interpreter/language/construct_table.hpp"
+
+namespace garment::interpreter::detail {
+namespace {
+
+using Words = std::initializer_list<std::string_view>;
+
+ConstructRecord later(std::string_view keyword, bool declares_name, std::string_view form,
+                      std::string_view doc, Words clauses, bool has_body = false, Words body = {}) {
+  ConstructRecord record;
+  record.keyword = keyword;
+  record.declares_name = declares_name;
+  record.form = form;
+  record.doc = doc;
+  for (std::string_view word : clauses) record.clauses.push_back({word, "", ""});
+  record.has_body = has_body;
+  record.body_keywords = body;
+  record.supported = false;
+  return record;
+}
+
+ConstructRecord inside(ConstructRecord record) {
+  record.top = false;
+  return record;
+}
+
+const Words kPanelBody = {"outline", "grain", "resolution", "notch", "dart",      "label", "place",
+                          "hole",    "line",  "point",      "slit",  "allowance", "pleat", "tuck"};
+const Words kComponentBody = {"param", "let",  "fn",     "fabric",  "panel",  "seam",  "place",  "attach",
+                              "pin",   "hem",  "zip",    "iron",    "region", "layer", "button", "port",
+                              "part",  "join", "assert", "measure", "tack",   "starch"};
+const Words kActs = {"drape", "expect", "save", "record", "release"};
+
+}  // namespace
+
+std::vector<ConstructRecord> later_constructs() {
+  return {
+      later("zip", true, "zip NAME: EDGE to EDGE open %", "a zip between two edges", {":", "to", "open"}),
+      later("hem", true, "hem NAME on EDGE turn LENGTH to back", "turns an edge", {"on", "turn", "to"}),
+      later("tack", true, "tack NAME: A to B along LINE | in REGION", "loose stitches",
+            {":", "to", "along", "in"}),
+      later("iron", true, "iron NAME along LINE fold ANGLE to face | back", "presses a line or a region",
+            {"along", "in", "fold", "to", "radius", "set", "shrink", "extend", "flat", "curl", "factor"}),
+      later("starch", false, "starch REGION factor FACTOR", "stiffens a region", {"factor"}),
+      later("region", true, "region NAME in PANEL, ...: SHAPE", "part of one or more panels", {"in", ":"}),
+      later("layer", true, "layer NAME of FABRIC on PANEL fused | basted", "a layer of another cloth",
+            {"of", "on", "in", "fused", "basted", "free", "grain", "side", "above"}),
+      later("pad", true, "pad NAME on PANEL", "a soft accessory with thickness", {"on", "at", "thickness"}),
+      later("button", true, "button NAME on PANEL at POINT through PANEL at POINT", "a button and its hole",
+            {"on", "at", "through", "mass", "diameter", "shank", "kind"}),
+      later("component", false, "component NAME(PARAMETERS) { ... }", "a reusable part of a garment", {},
+            true, kComponentBody),
+      inside(later("port", true, "port NAME = EDGE", "where a component is joined", {"="})),
+      later("part", true, "part NAME = COMPONENT(...)", "one use of a component", {"="}),
+      later("join", false, "join PORT to EDGE", "sews a port",
+            {"to", "ease", "gather", "stretch", "reversed"}),
+      later("solve", true, "solve NAME in RANGE so CONDITION", "finds a value", {"in", "so"}),
+      later("pair", false, "pair panel NAME of FABRIC { ... }", "two mirrored panels", {"of", "on", "like"},
+            true, kPanelBody),
+      inside(
+          later("hole", true, "hole NAME { ... }", "a hole in a panel", {"from"}, true, {"edge", "close"})),
+      inside(later("line", true, "line NAME from POINT to POINT", "a line inside a panel",
+                   {"from", "to", "through", "control", "controls", "arc", "bulge", "tangents"})),
+      inside(later("point", true, "point NAME at POINT", "a named point of a panel", {"at", "on"})),
+      inside(later("slit", true, "slit NAME along LINE", "a cut inside a panel", {"along"})),
+      inside(later("allowance", false, "allowance LENGTH [on EDGE]", "seam allowance", {"on"})),
+      inside(later("pleat", true, "pleat NAME on EDGE at POSITION", "a pleat",
+                   {"on", "at", "width", "depth", "underlay", "knife", "box", "inverted", "toward"})),
+      inside(later("tuck", true, "tuck NAME on EDGE at POSITION", "a tuck", {"on", "at", "width", "length"})),
+      later("slash", false, "slash PANEL along LINE spread LENGTH", "opens a panel along a line",
+            {"along", "spread"}),
+      later("move", false, "move EDGE by (DX, DY)", "moves an edge", {"by"}),
+      later("scale", false, "scale PANEL by FACTOR", "scales a panel", {"by"}),
+      later("vary", false, "vary NAME over VALUE, ... { ... }", "a study side by side", {"over"}, true,
+            kActs),
+      later("record", false, "record curve VALUE, VALUE every TIME as \"FILE\"", "writes a curve",
+            {"every", "as"}),
+      later("release", false, "release NAME", "lets a pin or clamp go", {}),
+      later("wind", false, "wind (X, Y, Z)", "moving air", {"gust"}),
+      later("drag", false, "drag FACTOR", "air drag", {}),
+      later("solver", false, "solver NAME", "chooses the simulator", {"step"}),
+      later("clamp", true, "clamp NAME: REGION [path PATH]", "holds a region", {":", "path"}),
+      later("force", true, "force NAME on PANEL at POINT", "a force on a point", {"on", "at", "of", "by"}),
+      later("pressure", true, "pressure NAME on PANEL of PRESSURE", "a pressure on a panel", {"on", "of"}),
+      later("constrain", false, "constrain distance | on_line | on_plane | equal ...",
+            "a bilateral constraint", {"to", "on", "at"}),
+      later("path", true, "path NAME of BODY { ... }", "a body's motion in time", {"of", "for", "to", "="}),
+      later("friction", false, "friction A B MU", "friction of a pair", {}),
+  };
+}
+
+}  // namespace garment::interpreter::detail

@@ -1,0 +1,328 @@
+#include "interpreter/language/declarations.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "interpreter/language/evaluate.hpp"
+#include "interpreter/language/files.hpp"
+#include "interpreter/language/function_table.hpp"
+
+namespace garment::interpreter {
+namespace {
+
+constexpr std::size_t kMaxExpanded = 100'000;
+
+bool is_control(const Statement& statement) {
+  return statement.keyword.text == "for" || statement.keyword.text == "if";
+}
+
+void count_expanded(Program& program, Span span) {
+  count_step(program, span);
+  if (++program.expanded <= kMaxExpanded) return;
+  report(program, Message("G0327", "loops made more than 100000 statements", span).help("shorten the range"));
+  throw Exhausted{};
+}
+
+/// Values that `for NAME in ...` runs through.
+std::vector<Value> loop_values(Program& program, const Statement& statement, Scope& scope) {
+  if (statement.clauses.empty() || statement.clauses[0].values.size() != 1)
+    fail(program, Message("G0312", "`for` needs `in` and a range or list", statement.keyword.span));
+  const Expr& expr = statement.clauses[0].values[0];
+  const Value value = eval(program, expr, scope);
+  if (const auto* list = value.as<ListValue>()) return **list;
+  const auto* range = value.as<RangeValue>();
+  if (range == nullptr || !range->from.dimension.none())
+    fail(program, Message("G0306", kind_of(value) + " where `for` takes a range of whole numbers or a list",
+                          expr.span));
+  const double from = range->from.value, to = range->to.value;
+  if (from != std::floor(from) || std::fabs(from) > 1e9)
+    fail(program, Message("G0309", "a loop starts at a whole number, this at " + format_quantity(from, {}),
+                          expr.span));
+  if (to - from > static_cast<double>(kMaxExpanded))
+    fail(program,
+         Message("G0327", "the loop would run " + format_quantity(to - from + 1, {}) + " times", expr.span)
+             .help("at most 100000"));
+  std::vector<Value> values;
+  for (double x = from; x <= to; x += 1) values.push_back(number_value(x));
+  return values;
+}
+
+/// Name of a statement that declares one; the function's name for `fn f(x)`.
+const grammar::Name* declared_name(const Statement& statement, grammar::Name& made) {
+  if (statement.name) return &*statement.name;
+  const bool called = statement.keyword.text == "fn" || statement.keyword.text == "component";
+  if (called && !statement.operands.empty()) {
+    const Expr& head = statement.operands[0];
+    const Expr& name = head.kind == ExprKind::call ? head.children[0] : head;
+    if (name.kind != ExprKind::name) return nullptr;
+    made = {name.text, name.span, {}};
+    return &made;
+  }
+  if (statement.keyword.text == "pair" && statement.operands.size() > 1 &&
+      statement.operands[1].kind == ExprKind::name) {
+    made = {statement.operands[1].text, statement.operands[1].span, {}};
+    return &made;
+  }
+  return nullptr;
+}
+
+class Registrar {
+ public:
+  Registrar(Program& program, Module& module) : program_(program), module_(module) {}
+
+  void take_block(const grammar::Block& block, Scope& scope, bool nested) {
+    // Plain declarations first, so that loop ranges may speak of what stands below them.
+    std::vector<std::vector<Item>> items(block.size());
+    for (std::size_t k = 0; k < block.size(); ++k) {
+      if (is_control(block[k])) continue;
+      guarded([&] { take(block[k], scope, nested, items[k]); });
+    }
+    for (std::size_t k = 0; k < block.size(); ++k) {
+      module_.items.insert(module_.items.end(), items[k].begin(), items[k].end());
+      if (is_control(block[k])) guarded([&] { expand(block[k], scope); });
+    }
+  }
+
+ private:
+  template <class F>
+  void guarded(const F& run) {
+    try {
+      run();
+    } catch (const Stop&) {
+    }
+  }
+
+  void expand(const Statement& statement, Scope& scope) {
+    if (statement.broken) {
+      module_.has_broken = true;
+      return;
+    }
+    if (statement.keyword.text == "if") {
+      if (statement.operands.empty()) throw Stop{};
+      const bool holds = eval_truth(program_, statement.operands[0], scope, "`if`");
+      if (holds && statement.body) take_block(*statement.body, program_.new_scope(&scope), true);
+      if (!holds && statement.else_body) take_block(*statement.else_body, program_.new_scope(&scope), true);
+      return;
+    }
+    if (!statement.name || !statement.body) throw Stop{};
+    for (const Value& value : loop_values(program_, statement, scope)) {
+      count_expanded(program_, statement.keyword.span);
+      Scope& round = program_.new_scope(&scope);
+      round.values.emplace(statement.name->text, value);
+      take_block(*statement.body, round, true);
+    }
+  }
+
+  void take(const Statement& statement, Scope& scope, bool nested, std::vector<Item>& items) {
+    const std::string& keyword = statement.keyword.text;
+    if (nested) count_expanded(program_, statement.keyword.span);
+    if (keyword == "both") {
+      if (statement.broken || !statement.body || statement.body->empty()) return;
+      for (const char* half : {"left", "right"}) {
+        Scope& side = program_.new_scope(&scope);
+        side.half = half;
+        take_plain(statement.body->front(), side, nested, std::string(".") + half, items);
+      }
+      return;
+    }
+    take_plain(statement, scope, nested, "", items);
+  }
+
+  void take_plain(const Statement& statement, Scope& scope, bool nested, const std::string& suffix,
+                  std::vector<Item>& items) {
+    const std::string& keyword = statement.keyword.text;
+    const ConstructRecord* record = find_construct(keyword);
+    if (record == nullptr && keyword != "=") {
+      if (statement.broken || is_control(statement)) module_.has_broken = true;
+      if (!statement.broken)
+        report(program_, Message("G0322", "`" + keyword + "` cannot stand here", statement.keyword.span));
+      return;
+    }
+    const bool unsupported = record != nullptr && !record->supported;
+    if (unsupported && !statement.broken)
+      report(program_, Message("G0315", "`" + keyword + "` is not supported yet", statement.keyword.span)
+                           .help("it is a word of the language whose meaning is still to come"));
+    if (!statement.broken && !unsupported) {
+      if (module_.library && (record == nullptr || !record->in_library))
+        fail(program_, Message("G0322", "a used file may not have `" + keyword + "`", statement.keyword.span)
+                           .help("it may have use, let, fn and fabric"));
+      if (keyword == "use") return run_use(program_, statement, scope);
+      if (nested && (keyword == "param" || keyword == "garment"))
+        fail(program_,
+             Message("G0322", "`" + keyword + "` stands at the top level only", statement.keyword.span));
+    }
+    Item item{&statement, &scope, nullptr};
+    grammar::Name made;
+    const grammar::Name* name = declared_name(statement, made);
+    if (name != nullptr) {
+      item.declaration = declare(*name, statement, scope, nested, suffix);
+      if (statement.broken || unsupported) item.declaration->state = Declaration::State::failed;
+    } else if (statement.broken) {
+      module_.has_broken =
+          module_.has_broken || record == nullptr || record->declares_name || keyword == "fn";
+    }
+    if (!statement.broken && !unsupported) items.push_back(item);
+  }
+
+  Declaration* declare(const grammar::Name& written, const Statement& statement, Scope& scope, bool nested,
+                       const std::string& suffix) {
+    const std::string name = fill_name(program_, written, scope) + suffix;
+    const std::string& keyword = statement.keyword.text;
+    const bool local = nested && (keyword == "let" || keyword == "fn");
+    Scope& target = local ? scope : *module_.scope;
+    check_new_name(program_, name, written.span, target);
+    Declaration& declaration = program_.declarations.emplace_back();
+    declaration.name = name;
+    declaration.statement = &statement;
+    declaration.scope = &scope;
+    declaration.module = &module_;
+    target.declared.emplace(name, &declaration);
+    return &declaration;
+  }
+
+  Program& program_;
+  Module& module_;
+};
+
+/// `front.waist_dart.depth` as words; empty if it is not of that shape.
+std::vector<std::string> target_path(Program& program, const Expr& expr, Scope& scope) {
+  if (expr.kind == ExprKind::name) return {name_of(program, expr, scope)};
+  if (expr.kind != ExprKind::member || expr.children.empty()) return {};
+  std::vector<std::string> path = target_path(program, expr.children[0], scope);
+  if (!path.empty()) path.push_back(name_of(program, expr, scope));
+  return path;
+}
+
+void attach_assignment(Program& program, const Item& item) {
+  const Statement& statement = *item.statement;
+  if (statement.operands.size() != 2) throw Stop{};
+  const Expr& target = statement.operands[0];
+  std::vector<std::string> path = target_path(program, target, *item.scope);
+  if (path.empty()) fail(program, Message("G0311", "this cannot be assigned to", target.span));
+  Declaration* declaration = find_declaration(*item.scope, path[0]);
+  std::size_t used = 1;
+  if (declaration == nullptr && path.size() > 1 &&
+      (declaration = find_declaration(*item.scope, path[0] + '.' + path[1])))
+    used = 2;
+  if (declaration == nullptr) {
+    if (find_local(*item.scope, path[0]) != nullptr)
+      fail(program, Message("G0311", "a library cannot be changed", target.span)
+                        .help("make your own: `fabric mine = fabrics.denim with { ... }`"));
+    fail_unknown_name(program, path[0], target.span, *item.scope);
+  }
+  if (declaration->state == Declaration::State::failed) throw Stop{};
+  path.erase(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(used));
+  if (path.empty() && declaration->statement->keyword.text != "param")
+    fail(program, Message("G0311",
+                          "`" + declaration->name + "` is a " + declaration->statement->keyword.text +
+                              "; only a param can be set as a whole",
+                          target.span)
+                      .also(declaration->statement->span, "declared here"));
+  for (const Override& other : declaration->overrides)
+    if (other.path == path)
+      fail(program,
+           Message("G0321", "`" + std::string(program.sources.text(target.span)) + "` is assigned twice",
+                   target.span)
+               .also(other.span, "first here"));
+  declaration->overrides.push_back({path, &statement.operands[1], item.scope, target.span});
+}
+
+}  // namespace
+
+void check_new_name(Program& program, const std::string& name, Span span, Scope& scope) {
+  if (find_unit(name)) fail(program, Message("G0303", "`" + name + "` is a unit and cannot be a name", span));
+  if (find_function(name) != nullptr)
+    fail(program, Message("G0303", "`" + name + "` is a builtin and cannot be a name", span));
+  if (name == "start" || name == "end" || name == "true" || name == "false")
+    fail(program, Message("G0303", "`" + name + "` has a meaning of its own and cannot be a name", span));
+  const auto declared = scope.declared.find(name);
+  if (declared != scope.declared.end() || scope.values.contains(name)) {
+    Message message("G0302", "the name `" + name + "` is taken", span);
+    if (declared != scope.declared.end() && declared->second->statement != nullptr) {
+      const Statement& first = *declared->second->statement;
+      message.also(first.name ? first.name->span : first.keyword.span, "first here");
+    }
+    fail(program, message.help("every name is declared once"));
+  }
+}
+
+void register_module(Program& program, Module& module) {
+  module.scope = &program.new_scope(nullptr);
+  module.scope->module = &module;
+  Registrar(program, module).take_block(module.script.statements, *module.scope, false);
+}
+
+void settle_declarations(Program& program, Module& module) {
+  for (const Item& item : module.items) {
+    if (item.declaration == nullptr) continue;
+    const std::string& keyword = item.statement->keyword.text;
+    if (keyword == "panel") {
+      item.declaration->index = static_cast<int>(program.panels.size());
+      program.panels.emplace_back().panel.name = item.declaration->name;
+    } else if (keyword == "body") {
+      item.declaration->index = static_cast<int>(program.garment.bodies.size());
+      program.garment.bodies.emplace_back().name = item.declaration->name;
+    } else if (keyword == "seam") {
+      item.declaration->index = static_cast<int>(program.seams.size());
+      program.seams.emplace_back().seam.name = item.declaration->name;
+    } else if (keyword == "pin") {
+      item.declaration->index = static_cast<int>(program.garment.pins.size());
+      program.garment.pins.emplace_back().name = item.declaration->name;
+    }
+  }
+  program.built.resize(program.garment.bodies.size());
+  program.build_failed.resize(program.garment.bodies.size(), false);
+  for (const Item& item : module.items) {
+    if (item.statement->keyword.text != "=") continue;
+    try {
+      attach_assignment(program, item);
+    } catch (const Stop&) {
+    }
+  }
+}
+
+void check_assignments(Program& program, Module& module) {
+  for (const Item& item : module.items) {
+    if (item.declaration == nullptr || item.declaration->state != Declaration::State::done) continue;
+    const ConstructRecord* record = find_construct(item.statement->keyword.text);
+    for (const Override& change : item.declaration->overrides) {
+      if (change.used) continue;
+      std::string path = item.declaration->name;
+      for (const std::string& word : change.path) path += '.' + word;
+      std::vector<std::string> words;
+      if (record != nullptr)
+        for (const ClauseRecord& clause : record->clauses) words.emplace_back(clause.word);
+      report(program, Message("G0311", "there is no `" + path + "` to assign to", change.span)
+                          .help(did_you_mean(change.path.empty() ? "" : change.path[0], words)));
+    }
+  }
+}
+
+void expand_block(Program& program, const grammar::Block& block, Scope& scope,
+                  const std::function<void(const Statement&, Scope&)>& take) {
+  for (const Statement& statement : block) {
+    count_step(program, statement.span);
+    if (statement.broken) throw Stop{};  // what remains would be judged on half its text
+    if (!is_control(statement)) {
+      take(statement, scope);
+      continue;
+    }
+    if (statement.keyword.text == "if") {
+      if (statement.operands.empty()) throw Stop{};
+      const bool holds = eval_truth(program, statement.operands[0], scope, "`if`");
+      if (holds && statement.body) expand_block(program, *statement.body, program.new_scope(&scope), take);
+      if (!holds && statement.else_body)
+        expand_block(program, *statement.else_body, program.new_scope(&scope), take);
+      continue;
+    }
+    if (!statement.name || !statement.body) throw Stop{};
+    for (const Value& value : loop_values(program, statement, scope)) {
+      count_expanded(program, statement.keyword.span);
+      Scope& round = program.new_scope(&scope);
+      round.values.emplace(statement.name->text, value);
+      expand_block(program, *statement.body, round, take);
+    }
+  }
+}
+
+}  // namespace garment::interpreter

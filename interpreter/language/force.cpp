@@ -1,0 +1,89 @@
+// Declarations on demand: each evaluated once, cycles told with their path.
+#include <algorithm>
+
+#include "interpreter/language/bodies.hpp"
+#include "interpreter/language/clauses.hpp"
+#include "interpreter/language/declarations.hpp"
+#include "interpreter/language/evaluate.hpp"
+#include "interpreter/language/fabrics.hpp"
+#include "interpreter/language/panels.hpp"
+#include "interpreter/language/parameters.hpp"
+#include "interpreter/language/seams.hpp"
+
+namespace garment::interpreter {
+namespace {
+
+Span name_span(const Declaration& declaration) {
+  const Statement& statement = *declaration.statement;
+  return statement.name ? statement.name->span : statement.keyword.span;
+}
+
+Value evaluate(Program& program, Declaration& declaration) {
+  const Statement& statement = *declaration.statement;
+  const std::string& keyword = statement.keyword.text;
+  if (keyword == "let" || keyword == "measure") {
+    Clauses clauses(program, statement, *declaration.scope);
+    const Expr& expr = clauses.value(clauses.need("="));
+    clauses.finish();
+    return eval(program, expr, *declaration.scope);
+  }
+  if (keyword == "param") return evaluate_param(program, declaration);
+  if (keyword == "fn") {
+    check_function(program, declaration);
+    return Value{FunctionValue{&declaration}};
+  }
+  if (keyword == "fabric") return evaluate_fabric(program, declaration);
+  if (keyword == "body") return evaluate_body(program, declaration);
+  if (keyword == "panel") return evaluate_panel(program, declaration);
+  if (keyword == "seam") return evaluate_seam(program, declaration);
+  if (keyword == "pin") return evaluate_pin(program, declaration);
+  fail(program, Message("G0306", "`" + declaration.name + "` is a " + keyword + " and has no value",
+                        name_span(declaration)));
+}
+
+[[noreturn]] void fail_cycle(Program& program, const Declaration& declaration, Span asked_at) {
+  const auto first = std::find(program.running.begin(), program.running.end(), &declaration);
+  std::string path;
+  for (auto at = first; at != program.running.end(); ++at) path += '`' + (*at)->name + "` -> ";
+  Message message("G0304", "`" + declaration.name + "` needs itself: " + path + '`' + declaration.name + '`',
+                  asked_at);
+  for (auto at = first; at != program.running.end(); ++at) message.also(name_span(**at), "");
+  fail(program, message.help("break the circle: one of these must not depend on the next"));
+}
+
+struct RunningGuard {
+  Program& program;
+  RunningGuard(Program& p, Declaration& d) : program(p) { p.running.push_back(&d); }
+  RunningGuard(const RunningGuard&) = delete;
+  RunningGuard& operator=(const RunningGuard&) = delete;
+  ~RunningGuard() { program.running.pop_back(); }
+};
+
+/// A measure that asks the drape has another value after each drape: it is never kept.
+bool changes(const Declaration& declaration) {
+  return declaration.statement->keyword.text == "measure" && !declaration.statement->clauses.empty() &&
+         !declaration.statement->clauses[0].values.empty() &&
+         asks_drape(declaration.statement->clauses[0].values[0], *declaration.scope);
+}
+
+}  // namespace
+
+const Value& force(Program& program, Declaration& declaration, Span asked_at) {
+  using State = Declaration::State;
+  if (declaration.state == State::done) return declaration.value;
+  if (declaration.state == State::failed) throw Stop{};
+  if (declaration.state == State::running) fail_cycle(program, declaration, asked_at);
+  RunningGuard guard(program, declaration);
+  const bool keep = !changes(declaration);
+  declaration.state = State::running;
+  try {
+    declaration.value = evaluate(program, declaration);
+  } catch (const Stop&) {
+    declaration.state = keep ? State::failed : State::waiting;
+    throw;
+  }
+  declaration.state = keep ? State::done : State::waiting;
+  return declaration.value;
+}
+
+}  // namespace garment::interpreter

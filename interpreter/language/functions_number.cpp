@@ -1,0 +1,262 @@
+// Builtin functions on numbers, points and lists.
+#include <cmath>
+
+#include "interpreter/language/evaluate.hpp"
+#include "interpreter/language/function_table.hpp"
+#include "runtime/base/portable_math.hpp"
+
+namespace garment::interpreter::detail {
+namespace {
+
+Span place(const Call& call, std::size_t k) { return call.given(k) ? call.places[k]->span : call.expr.span; }
+
+Quantity number_at(Call& call, std::size_t k) {
+  const auto* q = call.arguments[k].as<Quantity>();
+  if (q == nullptr)
+    fail(call.program,
+         Message("G0306", "`" + std::string(call.record.name) + "` of " + kind_of(call.arguments[k]),
+                 place(call, k))
+             .help("it takes numbers"));
+  return *q;
+}
+
+Quantity wanted(Call& call, std::size_t k, Dimension dimension) {
+  return as_quantity(call.program, call.arguments[k], place(call, k), dimension,
+                     "`" + std::string(call.record.name) + "`");
+}
+
+Value finite(Call& call, Quantity q) {
+  if (!std::isfinite(q.value))
+    fail(call.program, Message("G0319", "`" + std::string(call.record.name) + "` has no finite value here",
+                               call.expr.span));
+  return Value{q};
+}
+
+Value extreme(Call& call, bool largest) {
+  std::vector<Value> values = call.arguments;
+  if (values.size() == 1)
+    if (const auto* list = values[0].as<ListValue>()) values = **list;
+  if (values.empty()) fail(call.program, Message("G0307", "the list is empty", call.expr.span));
+  Quantity best;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const auto* q = values[k].as<Quantity>();
+    if (q == nullptr) fail(call.program, Message("G0306", "only numbers have an order", place(call, k)));
+    if (k == 0) {
+      best = *q;
+      continue;
+    }
+    if (q->dimension != best.dimension && !is_plain_zero(*q) && !is_plain_zero(best))
+      fail(call.program,
+           Message("G0305", describe(q->dimension) + " beside " + describe(best.dimension), place(call, k))
+               .help("all values must be of one kind"));
+    const Dimension dimension = is_plain_zero(best) ? q->dimension : best.dimension;
+    if (largest ? q->value > best.value : q->value < best.value) best = *q;
+    best.dimension = dimension;
+  }
+  return Value{best};
+}
+
+Value run_sqrt(Call& call) {
+  const Quantity q = number_at(call, 0);
+  const Dimension d = q.dimension;
+  if (d.m % 2 != 0 || d.kg % 2 != 0 || d.s % 2 != 0 || d.rad % 2 != 0)
+    fail(call.program,
+         Message("G0305", "the square root of " + describe(d) + " has no unit", place(call, 0)));
+  if (q.value < 0)
+    fail(call.program, Message("G0309", "the square root of " + format_quantity(q.value, d), place(call, 0))
+                           .help("the value must not be negative"));
+  auto half = [](std::int8_t e) { return static_cast<std::int8_t>(e / 2); };
+  return finite(call, {std::sqrt(q.value), {half(d.m), half(d.kg), half(d.s), half(d.rad)}, false});
+}
+
+template <double (*F)(double)>
+Value angle_function(Call& call) {
+  return finite(call, {F(wanted(call, 0, kAngle).value), kNumber, false});
+}
+
+template <double (*F)(double)>
+Value inverse_function(Call& call) {
+  return finite(call, {F(wanted(call, 0, kNumber).value), kAngle, false});
+}
+
+Value run_atan2(Call& call) {
+  const Quantity y = number_at(call, 0), x = number_at(call, 1);
+  if (y.dimension != x.dimension && !is_plain_zero(y) && !is_plain_zero(x))
+    fail(call.program,
+         Message("G0305", "`atan2` of " + describe(y.dimension) + " and " + describe(x.dimension),
+                 call.expr.span));
+  return finite(call, {portable::atan2(y.value, x.value), kAngle, false});
+}
+
+template <double (*F)(double)>
+Value rounded(Call& call) {
+  const Quantity q = number_at(call, 0);
+  if (!call.given(1)) {
+    if (!q.dimension.none())
+      fail(
+          call.program,
+          Message("G0308",
+                  "`" + std::string(call.record.name) + "` of " + describe(q.dimension) + " needs a step",
+                  place(call, 0))
+              .help("as in `" + std::string(call.record.name) + "(x, 1 " + example_unit(q.dimension) + ")`"));
+    return Value{Quantity{F(q.value), q.dimension, false}};
+  }
+  const Quantity step = wanted(call, 1, q.dimension);
+  if (!(step.value > 0)) fail(call.program, Message("G0309", "a step must be over 0", place(call, 1)));
+  return finite(call, {F(q.value / step.value) * step.value, q.dimension, q.percent});
+}
+
+double round_half_away(double x) { return std::round(x); }
+double round_down(double x) { return std::floor(x); }
+double round_up(double x) { return std::ceil(x); }
+
+Value run_floor(Call& call) {
+  return call.given(0) ? rounded<round_down>(call) : Value{ShapeValue{design::Floor{}}};
+}
+
+Value run_abs(Call& call) {
+  Quantity q = number_at(call, 0);
+  q.value = std::fabs(q.value);
+  return Value{q};
+}
+
+Value run_count(Call& call) {
+  const auto* list = call.arguments[0].as<ListValue>();
+  if (list == nullptr)
+    fail(call.program, Message("G0306", "`count` of " + kind_of(call.arguments[0]), place(call, 0)));
+  return number_value(static_cast<double>((*list)->size()));
+}
+
+Value run_distance(Call& call) {
+  const auto *p = call.arguments[0].as<PointValue>(), *q = call.arguments[1].as<PointValue>();
+  if (p == nullptr || q == nullptr || p->size != q->size)
+    fail(call.program,
+         Message("G0306", "`distance` takes two points with as many coordinates", call.expr.span));
+  double sum = 0;
+  for (std::size_t k = 0; k < 3; ++k) sum += (p->at[k] - q->at[k]) * (p->at[k] - q->at[k]);
+  const Dimension dimension = p->dimension.none() ? q->dimension : p->dimension;
+  return finite(call, {std::sqrt(sum), dimension, false});
+}
+
+/// Point at an angle from +x and a distance from `p`.
+Value run_polar(Call& call) {
+  const auto* p = call.arguments[0].as<PointValue>();
+  if (p == nullptr || p->size != 2)
+    fail(call.program, Message("G0306", "`polar` starts from a point in the plane", place(call, 0)));
+  const double angle = wanted(call, 1, kAngle).value, far = wanted(call, 2, kLength).value;
+  return Value{PointValue{
+      {p->at[0] + far * portable::cos(angle), p->at[1] + far * portable::sin(angle), 0}, 2, kLength, -1}};
+}
+
+/// Point a fraction of the way, or a length, from `p` toward `q`.
+Value run_toward(Call& call) {
+  const auto *p = call.arguments[0].as<PointValue>(), *q = call.arguments[1].as<PointValue>();
+  if (p == nullptr || q == nullptr || p->size != q->size)
+    fail(call.program,
+         Message("G0306", "`toward` takes two points with as many coordinates", call.expr.span));
+  const Quantity way = number_at(call, 2);
+  double t = way.value;
+  if (way.dimension == kLength) {
+    double sum = 0;
+    for (std::size_t k = 0; k < 3; ++k) sum += (p->at[k] - q->at[k]) * (p->at[k] - q->at[k]);
+    if (sum == 0) fail(call.program, Message("G0319", "the two points are one", call.expr.span));
+    t = way.value / std::sqrt(sum);
+  } else if (!way.dimension.none()) {
+    fail(call.program, Message("G0306", "`toward` takes a fraction or a length", place(call, 2)));
+  }
+  PointValue r = *p;
+  for (std::size_t k = 0; k < 3; ++k) r.at[k] += t * (q->at[k] - p->at[k]);
+  if (p->dimension.none()) r.dimension = q->dimension;
+  r.panel = -1;
+  return Value{r};
+}
+
+}  // namespace
+
+std::vector<FunctionRecord> number_functions() {
+  return {
+      {"pi",
+       "pi",
+       "3.14159...",
+       "2 * pi * 10 cm",
+       {},
+       0,
+       [](Call&) { return number_value(portable::kPi); },
+       true},
+      {"min",
+       "min(A, B, ...)",
+       "the smallest",
+       "min(w, 30 cm)",
+       {"a", "b"},
+       1,
+       [](Call& call) {
+         if (!call.given(1)) call.arguments.resize(1);
+         return extreme(call, false);
+       },
+       false,
+       false,
+       true},
+      {"max",
+       "max(A, B, ...)",
+       "the largest",
+       "max(w, 30 cm)",
+       {"a", "b"},
+       1,
+       [](Call& call) {
+         if (!call.given(1)) call.arguments.resize(1);
+         return extreme(call, true);
+       },
+       false,
+       false,
+       true},
+      {"abs", "abs(X)", "without its sign", "abs(a - b)", {"x"}, 1, run_abs},
+      {"sqrt", "sqrt(X)", "square root; of an area a length", "sqrt(a * a + b * b)", {"x"}, 1, run_sqrt},
+      {"sin", "sin(ANGLE)", "sine", "sin(30 deg)", {"angle"}, 1, angle_function<portable::sin>},
+      {"cos", "cos(ANGLE)", "cosine", "cos(60 deg)", {"angle"}, 1, angle_function<portable::cos>},
+      {"tan", "tan(ANGLE)", "tangent", "tan(45 deg)", {"angle"}, 1, angle_function<portable::tan>},
+      {"asin", "asin(X)", "angle of a sine", "asin(0.5)", {"x"}, 1, inverse_function<portable::asin>},
+      {"acos", "acos(X)", "angle of a cosine", "acos(0.5)", {"x"}, 1, inverse_function<portable::acos>},
+      {"atan", "atan(X)", "angle of a tangent", "atan(1)", {"x"}, 1, inverse_function<portable::atan>},
+      {"atan2", "atan2(Y, X)", "angle of the point (X, Y)", "atan2(2 cm, 3 cm)", {"y", "x"}, 2, run_atan2},
+      {"round",
+       "round(X [, STEP])",
+       "to the nearest step",
+       "round(w, 1 mm)",
+       {"x", "step"},
+       1,
+       rounded<round_half_away>},
+      {"floor",
+       "floor(X [, STEP]) | floor",
+       "down to a step; as a body: the floor at y = 0",
+       "floor(3.7)",
+       {"x", "step"},
+       0,
+       run_floor,
+       true},
+      {"ceil", "ceil(X [, STEP])", "up to a step", "ceil(3.2)", {"x", "step"}, 1, rounded<round_up>},
+      {"count", "count(LIST)", "how many values a list has", "count([1, 2])", {"list"}, 1, run_count},
+      {"distance",
+       "distance(P, Q)",
+       "between two points",
+       "distance((0, 0), (3 cm, 4 cm))",
+       {"p", "q"},
+       2,
+       run_distance},
+      {"polar",
+       "polar(P, ANGLE, LENGTH)",
+       "the point that far from P, in that direction from +x",
+       "polar((0, 0), 30 deg, 10 cm)",
+       {"p", "angle", "length"},
+       3,
+       run_polar},
+      {"toward",
+       "toward(P, Q, FRACTION | LENGTH)",
+       "the point that far on the way from P to Q",
+       "toward(a, b, 1/3)",
+       {"p", "q", "way"},
+       3,
+       run_toward},
+  };
+}
+
+}  // namespace garment::interpreter::detail

@@ -1,0 +1,224 @@
+#include "interpreter/language/interpret.hpp"
+
+#include <algorithm>
+
+#include "interpreter/language/acts.hpp"
+#include "interpreter/language/bodies.hpp"
+#include "interpreter/language/clauses.hpp"
+#include "interpreter/language/declarations.hpp"
+#include "interpreter/language/fabrics.hpp"
+#include "interpreter/language/panels.hpp"
+#include "interpreter/language/parameters.hpp"
+#include "interpreter/language/placements.hpp"
+#include "interpreter/language/recipe.hpp"
+#include "interpreter/language/seams.hpp"
+
+namespace garment::interpreter {
+namespace {
+
+void run_garment(Program& program, const Statement& statement, Scope& scope) {
+  if (program.title_seen) fail(program, Message("G0314", "`garment` is given twice", statement.keyword.span));
+  program.title_seen = true;
+  if (statement.operands.empty() || statement.operands.size() > 2)
+    fail(program, Message("G0312", "`garment` takes the edition and a title", statement.keyword.span)
+                      .help("as in `garment 1 \"skirt\"`"));
+  const Expr& edition = statement.operands[0];
+  const Quantity q = eval_quantity(program, edition, scope, kNumber, "the edition");
+  if (q.value != 1)
+    report(program, Message("G0323",
+                            "edition " + format_quantity(q.value, {}) +
+                                " of the language; this program knows edition 1",
+                            edition.span)
+                        .help("write `garment 1`, or use a newer program"));
+  if (statement.operands.size() == 2)
+    program.garment.title = eval_text(program, statement.operands[1], scope, "the title");
+}
+
+template <class F>
+void guarded(const F& run) {
+  try {
+    run();
+  } catch (const Stop&) {
+  }
+}
+
+void run_item(Program& program, const Item& item) {
+  const Statement& statement = *item.statement;
+  const std::string& keyword = statement.keyword.text;
+  if (keyword == "measure") return run_measure(program, *item.declaration);
+  if (item.declaration != nullptr) {
+    force(program, *item.declaration, statement.span);
+    return;
+  }
+  if (keyword == "garment") return run_garment(program, statement, *item.scope);
+  if (keyword == "place") return run_place(program, statement, *item.scope, nullptr);
+  if (keyword == "attach") return run_attach(program, statement, *item.scope);
+  if (keyword == "gravity") return run_gravity(program, statement, *item.scope);
+  if (keyword == "drape") return run_drape(program, statement, *item.scope);
+  if (keyword == "expect") return run_expect(program, statement, *item.scope);
+  if (keyword == "save") return run_save(program, statement, *item.scope);
+  if (keyword == "assert") return run_assert(program, statement, *item.scope);
+  if (keyword != "=")
+    fail(program, Message("G0322", "`" + keyword + "` cannot stand here", statement.keyword.span));
+}
+
+void check_both(Program& program) {
+  // A `both` whose two rounds ran and found no operand with halves would state one thing twice.
+  for (const Item& item : program.main->items) {
+    const Scope& scope = *item.scope;
+    const bool made = !scope.half.empty() && (scope.parent == nullptr || scope.parent->half.empty());
+    if (!made || scope.half_used || scope.half != "left") continue;
+    if (item.declaration != nullptr && item.declaration->state == Declaration::State::failed) continue;
+    report(program,
+           Message("G0330", "`both` finds no operand that has a left and a right half", item.statement->span)
+               .help("panels on the fold have halves; leave `both` out otherwise"));
+  }
+}
+
+void run_all(Program& program) {
+  Module& module = *program.main;
+  register_module(program, module);
+  settle_declarations(program, module);
+  find_backs(program);
+  check_given_parameters(program);
+  for (const Item& item : module.items)
+    if (item.declaration != nullptr && item.statement->keyword.text == "fabric")
+      guarded([&] {
+        const Value fabric = force(program, *item.declaration, item.statement->span);
+        fabric_index(program, fabric.as<FabricValue>()->fabric);
+      });
+  for (const Item& item : module.items) guarded([&] { run_item(program, item); });
+  const std::vector<Item> places = program.panel_places;
+  for (const Item& item : places)
+    guarded([&] { run_place(program, *item.statement, *item.scope, item.declaration); });
+  check_assignments(program, module);
+  if (program.has_error) return;  // what follows would speak of things that are not there
+  check_both(program);
+  check_chains(program);
+  if (!program.has_error) check_unsewn(program);
+  if (program.options.build_bodies)
+    for (std::size_t k = 0; k < program.garment.bodies.size(); ++k)
+      built_body(program, static_cast<int>(k), program.origins[program.garment.bodies[k].origin.value]);
+}
+
+void sort_parameters(Program& program) {
+  std::vector<Parameter> sorted;
+  for (const Item& item : program.main->items)
+    for (const Parameter& parameter : program.parameters)
+      if (item.declaration != nullptr && item.declaration->name == parameter.name &&
+          item.statement->keyword.text == "param")
+        sorted.push_back(parameter);
+  program.parameters = std::move(sorted);
+}
+
+}  // namespace
+
+bool Interpretation::ok() const {
+  return std::none_of(diagnostics.begin(), diagnostics.end(),
+                      [](const grammar::Diagnostic& d) { return d.severity == Severity::error; });
+}
+
+grammar::Diagnostics to_diagnostics(const Findings& findings, const std::vector<grammar::Span>& origins) {
+  grammar::Diagnostics diagnostics;
+  for (const Finding& finding : findings) {
+    grammar::Diagnostic diagnostic{finding.code, finding.severity, finding.message, {}, finding.help};
+    for (const FindingLabel& label : finding.labels)
+      if (label.origin.value > 0 && label.origin.value < origins.size())
+        diagnostic.labels.push_back({origins[label.origin.value], label.text});
+    diagnostics.push_back(std::move(diagnostic));
+  }
+  return diagnostics;
+}
+
+Interpretation interpret(grammar::Sources& sources, grammar::SourceId source, Host& host,
+                         const InterpretOptions& options) {
+  Interpretation result;
+  result.program = std::make_shared<Program>(sources, host, options);
+  Program& program = *result.program;
+  grammar::ParseResult parsed = grammar::parse(sources, source, vocabulary());
+  program.main = &program.modules.emplace_back();
+  program.main->script = std::move(parsed.script);
+  program.diagnostics = std::move(parsed.diagnostics);
+  program.has_error = std::any_of(program.diagnostics.begin(), program.diagnostics.end(),
+                                  [](const Diagnostic& d) { return d.severity == Severity::error; });
+  try {
+    run_all(program);
+  } catch (const Exhausted&) {
+    program.has_error = true;
+  } catch (const Stop&) {
+    program.has_error = true;
+  }
+  sort_parameters(program);
+  for (const PanelInfo& info : program.panels) program.garment.panels.push_back(info.panel);
+  for (const SeamInfo& info : program.seams)
+    if (info.ready) program.garment.seams.push_back(info.seam);
+  for (const auto& body : program.built) result.bodies.push_back(body != nullptr ? *body : body::Body{});
+  result.garment = program.garment;
+  result.acts = program.acts;
+  result.parameters = program.parameters;
+  result.measures = program.measures;
+  result.diagnostics = program.diagnostics;
+  result.origins = program.origins;
+  result.script = &program.main->script;
+  return result;
+}
+
+namespace {
+
+/// Runs a question to the drape with fresh diagnostics and budgets.
+template <class F>
+grammar::Diagnostics ask(Program& program, const DrapeMeasures& measures, const F& run) {
+  grammar::Diagnostics kept = std::move(program.diagnostics);
+  program.diagnostics.clear();
+  program.drape = &measures;
+  program.steps = 0;
+  try {
+    run();
+  } catch (const Stop&) {
+  } catch (const Exhausted&) {
+  }
+  program.drape = nullptr;
+  grammar::Diagnostics found = std::move(program.diagnostics);
+  program.diagnostics = std::move(kept);
+  return found;
+}
+
+}  // namespace
+
+ExpectResult evaluate_expect(Interpretation& interpretation, const Act& act, const DrapeMeasures& measures) {
+  ExpectResult result;
+  const auto* expect = std::get_if<ExpectAct>(&act.act);
+  if (expect == nullptr) return result;
+  Program& program = *interpretation.program;
+  Scope& scope = *static_cast<Scope*>(expect->scope);
+  result.text = expect->text;
+  result.diagnostics = ask(program, measures, [&] {
+    const Verdict verdict = judge(program, *expect->statement, scope);
+    result.passed = verdict.passed;
+    result.found = verdict.found;
+    result.expected = verdict.expected;
+    result.value = verdict.value;
+    if (!verdict.passed)
+      report(program,
+             Message("G0331", "`" + expect->text + "` does not hold", expect->statement->operands[0].span,
+                     "found " + verdict.found + ", expected " + verdict.expected));
+  });
+  return result;
+}
+
+MeasureResult evaluate_measure(Interpretation& interpretation, const Act& act,
+                               const DrapeMeasures& measures) {
+  MeasureResult result;
+  const auto* measure = std::get_if<MeasureAct>(&act.act);
+  if (measure == nullptr) return result;
+  Program& program = *interpretation.program;
+  Scope& scope = *static_cast<Scope*>(measure->scope);
+  result.measure.name = measure->name;
+  result.diagnostics = ask(program, measures, [&] {
+    const Value value = eval(program, measure->statement->clauses[0].values[0], scope);
+    result.measure = measure_value(measure->name, value);
+  });
+  return result;
+}
+
+}  // namespace garment::interpreter

@@ -1,0 +1,135 @@
+#pragma once
+// From the text of a script to the declared garment, its bodies and the acts that follow.
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "grammar/diagnostic.hpp"
+#include "grammar/syntax_tree.hpp"
+#include "runtime/base/host.hpp"
+#include "runtime/body/body.hpp"
+#include "runtime/design/garment.hpp"
+#include "runtime/simulator/drape.hpp"
+
+namespace garment::interpreter {
+
+struct Program;
+
+struct InterpretOptions {
+  std::string stdlib_dir;                     ///< folder of the standard library
+  std::string script_dir;                     ///< files named by the script are looked up below it
+  std::map<std::string, std::string> params;  ///< name -> expression text, as after `-p`
+  bool any_path = false;                      ///< files may lie outside `script_dir`
+  bool build_bodies = true;                   ///< build all declared bodies, not only those asked for
+  /// How bodies are built; empty: body::build_body.
+  std::function<body::BodyResult(const design::Body&, Host&, const std::string&)> build_body;
+};
+
+/// `drape until rest` or `drape for 2 s`.
+struct DrapeAct {
+  bool until_rest = true;
+  simulator::Settle settle = simulator::Settle::equilibrium;
+  double duration = 0;  ///< s, where not until rest
+};
+/// `expect` and a `measure` or `assert` that asks the drape. `condition` points into the tree that the
+/// Interpretation keeps alive.
+struct ExpectAct {
+  const grammar::Statement* statement = nullptr;
+  void* scope = nullptr;  ///< opaque
+  std::string text;       ///< as written
+};
+struct SaveAct {
+  std::vector<std::string> paths;
+};
+struct MeasureAct {
+  std::string name;
+  const grammar::Statement* statement = nullptr;
+  void* scope = nullptr;  ///< opaque
+  std::string text;
+};
+struct Act {
+  std::variant<DrapeAct, ExpectAct, SaveAct, MeasureAct> act;
+  grammar::Span span;
+};
+
+struct Parameter {
+  std::string name, doc, value, standard;  ///< value and default as text
+  std::string range;                       ///< "30 cm .. 110 cm", "\"slim\", \"loose\"" or empty
+  bool given = false;
+};
+
+/// A value for the report: SI number with its unit, or text.
+struct MeasureValue {
+  std::string name;
+  std::string text;             ///< "58 cm"
+  std::optional<double> value;  ///< SI
+  std::string unit;             ///< SI unit of `value`, "" for numbers
+};
+
+struct Interpretation {
+  design::Garment garment;
+  std::vector<body::Body> bodies;  ///< of garment.bodies, same order; empty where one could not be built
+  std::vector<Act> acts;           ///< in the order of the script
+  std::vector<Parameter> parameters;
+  std::vector<MeasureValue> measures;
+  grammar::Diagnostics diagnostics;
+  std::vector<grammar::Span> origins;       ///< by OriginId; [0] stands for "no statement"
+  const grammar::Script* script = nullptr;  ///< the tree of the script, kept alive by `program`
+  std::shared_ptr<Program> program;         ///< keeps scopes alive for `expect`; opaque
+
+  /// No error among the diagnostics.
+  bool ok() const;
+};
+
+/// Parses and evaluates one script. Never throws; what is wrong stands in `diagnostics`, and then the garment
+/// is only as far as it came. Libraries and command-line parameters are added to `sources`, which with `host`
+/// must outlive the result. Same input, same bits.
+Interpretation interpret(grammar::Sources& sources, grammar::SourceId source, Host& host,
+                         const InterpretOptions& options);
+
+/// Findings of the later stages with the places of the script.
+grammar::Diagnostics to_diagnostics(const Findings& findings, const std::vector<grammar::Span>& origins);
+
+/// What can be asked of a finished drape, SI. An empty panel name means the whole garment; nothing means "not
+/// known".
+class DrapeMeasures {
+ public:
+  virtual ~DrapeMeasures() = default;
+  virtual std::optional<double> strain(const std::string& panel) const = 0;  ///< largest tensile, 1
+  virtual std::optional<double> shear(const std::string& panel) const = 0;   ///< largest angle, rad
+  virtual std::optional<double> length(const std::vector<design::EdgePart>& parts) const = 0;  ///< m
+  virtual std::optional<double> area(const std::string& panel) const = 0;                      ///< m^2
+  virtual std::optional<double> mass(const std::string& panel) const = 0;                      ///< kg
+  virtual std::optional<double> clearance(
+      const std::string& panel) const = 0;                 ///< least distance to a body, m
+  virtual std::optional<double> energy() const = 0;        ///< J
+  virtual std::optional<double> penetrations() const = 0;  ///< count
+  /// Of a pin by its index in Garment::pins.
+  virtual std::optional<Eigen::Vector3d> position(int pin) const = 0;
+  /// Of a point of a panel, panel coordinates in m.
+  virtual std::optional<Eigen::Vector3d> position(int panel, const design::Point2& point) const = 0;
+};
+
+struct ExpectResult {
+  bool passed = false;
+  std::string text;                  ///< the condition as written
+  std::string found;                 ///< "6.2%"
+  std::string expected;              ///< "< 8%"
+  std::optional<double> value;       ///< SI, where the left side is a number
+  grammar::Diagnostics diagnostics;  ///< where it could not be evaluated, or did not hold
+};
+
+ExpectResult evaluate_expect(Interpretation& interpretation, const Act& act, const DrapeMeasures& measures);
+
+/// Value of a `measure` that asks the drape.
+struct MeasureResult {
+  MeasureValue measure;
+  grammar::Diagnostics diagnostics;
+};
+MeasureResult evaluate_measure(Interpretation& interpretation, const Act& act, const DrapeMeasures& measures);
+
+}  // namespace garment::interpreter

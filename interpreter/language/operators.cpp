@@ -1,0 +1,163 @@
+#include <cmath>
+
+#include "interpreter/language/evaluate.hpp"
+#include "runtime/base/portable_math.hpp"
+
+namespace garment::interpreter {
+namespace {
+
+[[noreturn]] void fail_kinds(Program& program, const Expr& expr, const Value& a, const Value& b) {
+  fail(program,
+       Message("G0306", "`" + expr.text + "` between " + kind_of(a) + " and " + kind_of(b), expr.span)
+           .help(expr.text == "+" ? "`+` adds numbers of one kind, adds points, and chains edges" : ""));
+}
+
+[[noreturn]] void fail_dimensions(Program& program, const Expr& expr, const Quantity& a, const Quantity& b) {
+  Message message("G0305",
+                  "`" + expr.text + "` between " + describe(a.dimension) + " (" +
+                      format_quantity(a.value, a.dimension, a.percent) + ") and " + describe(b.dimension) +
+                      " (" + format_quantity(b.value, b.dimension, b.percent) + ")",
+                  expr.span);
+  const Quantity& bare = a.dimension.none() ? a : b;
+  const Quantity& other = a.dimension.none() ? b : a;
+  if (bare.dimension.none() && !bare.percent)
+    message.help("give the number a unit: `" + format_quantity(bare.value, {}) + ' ' +
+                 example_unit(other.dimension) + "`");
+  fail(program, message);
+}
+
+Value finite(Program& program, const Expr& expr, Quantity q) {
+  if (!std::isfinite(q.value))
+    fail(program, Message("G0319", "the result of `" + expr.text + "` is not a finite number", expr.span));
+  return Value{q};
+}
+
+Quantity add(Program& program, const Expr& expr, const Quantity& a, const Quantity& b, double sign) {
+  Quantity r{a.value + sign * b.value, a.dimension, a.percent && b.percent};
+  if (a.dimension != b.dimension) {
+    if (!is_plain_zero(a) && !is_plain_zero(b)) fail_dimensions(program, expr, a, b);
+    if (is_plain_zero(a)) r.dimension = b.dimension;
+  }
+  return r;
+}
+
+Value multiply(Program& program, const Expr& expr, const Quantity& a, const Quantity& b, bool divide) {
+  if (divide && b.value == 0)
+    fail(program, Message("G0319", "division by zero", expr.span, "")
+                      .also(expr.children.size() > 1 ? expr.children[1].span : expr.span, "this is 0"));
+  const auto dimension = divide ? quotient(a.dimension, b.dimension) : product(a.dimension, b.dimension);
+  if (!dimension) fail(program, Message("G0305", "the unit of the result has exponents past 60", expr.span));
+  const bool percent =
+      dimension->none() && (divide ? a.percent && !b.percent && b.dimension.none() : a.percent != b.percent);
+  return finite(program, expr, {divide ? a.value / b.value : a.value * b.value, *dimension, percent});
+}
+
+Value raise(Program& program, const Expr& expr, const Quantity& a, const Quantity& b) {
+  if (!b.dimension.none()) fail(program, Message("G0305", "an exponent must be a plain number", expr.span));
+  const double rounded = std::round(b.value);
+  if (!a.dimension.none()) {
+    const auto dimension = rounded == b.value && std::fabs(b.value) <= 60
+                               ? power(a.dimension, static_cast<int>(rounded))
+                               : std::nullopt;
+    if (!dimension)
+      fail(program,
+           Message("G0305", "only whole powers of " + describe(a.dimension) + " have a unit", expr.span));
+    return finite(program, expr, {portable::pow(a.value, b.value), *dimension, false});
+  }
+  return finite(program, expr, {portable::pow(a.value, b.value), {}, false});
+}
+
+Value compare(Program& program, const Expr& expr, const Value& a, const Value& b) {
+  const std::string& op = expr.text;
+  const auto *p = a.as<Quantity>(), *q = b.as<Quantity>();
+  if (p != nullptr && q != nullptr) {
+    if (p->dimension != q->dimension && !is_plain_zero(*p) && !is_plain_zero(*q))
+      fail_dimensions(program, expr, *p, *q);
+    if (op == "<") return Value{p->value < q->value};
+    if (op == "<=") return Value{p->value <= q->value};
+    if (op == ">") return Value{p->value > q->value};
+    if (op == ">=") return Value{p->value >= q->value};
+    return Value{(p->value == q->value) == (op != "!=")};
+  }
+  if (op == "==" || op == "is" || op == "!=") {
+    if (a.data.index() != b.data.index()) fail_kinds(program, expr, a, b);
+    return Value{same_value(a, b) == (op != "!=")};
+  }
+  fail_kinds(program, expr, a, b);
+}
+
+Value point_arithmetic(Program& program, const Expr& expr, const PointValue& a, const PointValue& b,
+                       double sign) {
+  auto zero = [](const PointValue& p) { return p.at[0] == 0 && p.at[1] == 0 && p.at[2] == 0; };
+  if (a.size != b.size || (a.dimension != b.dimension && !zero(a) && !zero(b)))
+    fail(program, Message("G0305", "`" + expr.text + "` between points of different kinds", expr.span));
+  PointValue r = zero(a) ? b : a;
+  r.panel = -1;
+  for (std::size_t k = 0; k < 3; ++k) r.at[k] = a.at[k] + sign * b.at[k];
+  return Value{r};
+}
+
+Value scale_point(Program& program, const Expr& expr, PointValue p, const Quantity& q, bool divide) {
+  for (double& x : p.at) {
+    const Value scaled = multiply(program, expr, {x, p.dimension, false}, q, divide);
+    x = scaled.as<Quantity>()->value;
+  }
+  p.dimension = divide ? *quotient(p.dimension, q.dimension) : *product(p.dimension, q.dimension);
+  p.panel = -1;
+  return Value{p};
+}
+
+Value chain(const EdgeValue& a, const EdgeValue& b, bool backwards) {
+  EdgeValue r = a;
+  for (std::size_t k = 0; k < b.spans.size(); ++k) {
+    EdgeSpan span = b.spans[backwards ? b.spans.size() - 1 - k : k];
+    span.backwards = span.backwards != backwards;
+    r.spans.push_back(span);
+  }
+  return Value{r};
+}
+
+}  // namespace
+
+Value apply_unary(Program& program, const Expr& expr, const Value& a) {
+  if (const auto* q = a.as<Quantity>())
+    return expr.text == "-" ? Value{Quantity{-q->value, q->dimension, q->percent}} : a;
+  if (const auto* p = a.as<PointValue>(); p != nullptr && (expr.text == "-" || expr.text == "+")) {
+    PointValue r = *p;
+    if (expr.text == "-")
+      for (double& x : r.at) x = -x;
+    r.panel = -1;
+    return Value{r};
+  }
+  if (const auto* edge = a.as<EdgeValue>(); edge != nullptr && expr.text == "-")
+    return chain({}, *edge, true);
+  fail(program, Message("G0306", "`" + expr.text + "` before " + kind_of(a), expr.span));
+}
+
+Value apply_binary(Program& program, const Expr& expr, const Value& a, const Value& b) {
+  const std::string& op = expr.text;
+  if (op == "==" || op == "!=" || op == "<" || op == "<=" || op == ">" || op == ">=" || op == "is")
+    return compare(program, expr, a, b);
+  const auto *p = a.as<Quantity>(), *q = b.as<Quantity>();
+  const auto *u = a.as<PointValue>(), *v = b.as<PointValue>();
+  const auto *e = a.as<EdgeValue>(), *f = b.as<EdgeValue>();
+  if (op == "+" || op == "-") {
+    const double sign = op == "+" ? 1 : -1;
+    if (p != nullptr && q != nullptr) return finite(program, expr, add(program, expr, *p, *q, sign));
+    if (u != nullptr && v != nullptr) return point_arithmetic(program, expr, *u, *v, sign);
+    if (e != nullptr && f != nullptr) return chain(*e, *f, op == "-");
+  }
+  if (op == "*") {
+    if (p != nullptr && q != nullptr) return multiply(program, expr, *p, *q, false);
+    if (u != nullptr && q != nullptr) return scale_point(program, expr, *u, *q, false);
+    if (p != nullptr && v != nullptr) return scale_point(program, expr, *v, *p, false);
+  }
+  if (op == "/") {
+    if (p != nullptr && q != nullptr) return multiply(program, expr, *p, *q, true);
+    if (u != nullptr && q != nullptr) return scale_point(program, expr, *u, *q, true);
+  }
+  if (op == "^" && p != nullptr && q != nullptr) return raise(program, expr, *p, *q);
+  fail_kinds(program, expr, a, b);
+}
+
+}  // namespace garment::interpreter

@@ -1,0 +1,380 @@
+#include "interpreter/language/panels.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "interpreter/language/clauses.hpp"
+#include "interpreter/language/edges.hpp"
+#include "interpreter/language/fabrics.hpp"
+#include "interpreter/language/outline.hpp"
+#include "interpreter/language/recipe.hpp"
+#include "runtime/base/portable_math.hpp"
+#include "runtime/design/unfold.hpp"
+
+namespace garment::interpreter {
+namespace {
+
+using design::Point2;
+
+Span name_span(const RecipeItem& item) {
+  return item.statement->name ? item.statement->name->span : item.statement->span;
+}
+
+class PanelMaker {
+ public:
+  PanelMaker(Program& program, Declaration& declaration, PanelInfo& info)
+      : program_(program), declaration_(declaration), info_(info), panel_(info.panel) {}
+
+  void make() {
+    const Statement& statement = *declaration_.statement;
+    const auto recipe = std::make_shared<Recipe>(make_recipe(program_, declaration_));
+    recipe_ = recipe.get();
+    panel_.name = declaration_.name;
+    panel_.origin = program_.origin(statement.span);
+    take_fabric();
+    take_values();
+    if (recipe_->outline.statement == nullptr)
+      fail(program_, Message("G0411", "panel `" + panel_.name + "` has no outline", head_span())
+                         .help("write `outline from (0, 0) { edge ... close ... }`"));
+    panel_.edges = draw_outline(program_, *recipe_, spans_);
+    check_crossings(program_, panel_, spans_);
+    for (const RecipeItem& item : recipe_->notches) guarded([&] { add_notch(item); });
+    for (const RecipeItem& item : recipe_->darts) guarded([&] { add_dart(item); });
+    if (failed_) throw Stop{};
+    if (recipe_->mirrored) mirror();
+    if (!recipe_->fold.empty()) open_fold();
+    finish();
+    program_.recipes[declaration_.index] = recipe;
+  }
+
+ private:
+  template <class F>
+  void guarded(const F& run) {
+    try {
+      run();
+    } catch (const Stop&) {
+      failed_ = true;
+    }
+  }
+
+  Span head_span() const {
+    const Statement& statement = *declaration_.statement;
+    return statement.name ? grammar::cover(statement.keyword.span, statement.name->span)
+                          : statement.keyword.span;
+  }
+
+  void take_fabric() {
+    if (recipe_->fabric.value == nullptr)
+      fail(program_, Message("G0312", "panel `" + panel_.name + "` needs a fabric", head_span())
+                         .help("write `panel " + panel_.name + " of FABRIC { ... }`"));
+    const Value value = eval(program_, *recipe_->fabric.value, *recipe_->fabric.scope);
+    const auto* fabric = value.as<FabricValue>();
+    if (fabric == nullptr)
+      fail(program_,
+           Message("G0306", kind_of(value) + " where `of` takes a fabric", recipe_->fabric.value->span));
+    panel_.fabric = fabric_index(program_, fabric->fabric);
+  }
+
+  const RecipeValue* value_of(const char* word) const {
+    const auto found = recipe_->values.find(word);
+    return found == recipe_->values.end() ? nullptr : &found->second;
+  }
+
+  void take_values() {
+    if (const RecipeValue* grain = value_of("grain")) {
+      const Point2 way = eval_direction(program_, *grain->value, *grain->scope, "`grain`");
+      panel_.grain_angle = portable::atan2(-way.x(), way.y());
+    }
+    if (const RecipeValue* resolution = value_of("resolution")) {
+      panel_.resolution =
+          eval_quantity(program_, *resolution->value, *resolution->scope, kLength, "`resolution`").value;
+      if (!(panel_.resolution >= 1e-3 && panel_.resolution <= 0.1))
+        fail(program_, Message("G0409",
+                               "a resolution of " + format_quantity(panel_.resolution, kLength) +
+                                   "; it must lie in 1 mm .. 10 cm",
+                               resolution->value->span));
+    }
+    if (const RecipeValue* label = value_of("label")) {
+      panel_.label = eval_text(program_, *label->value, *label->scope, "`label`");
+      if (panel_.label != "body" && panel_.label != "leg" && panel_.label != "arm")
+        fail(program_,
+             Message("G0309", "a panel's label is \"body\", \"leg\" or \"arm\"", label->value->span));
+    }
+  }
+
+  /// The drawn edge that a notch or dart stands on.
+  const design::Edge& edge_of(const RecipeItem& item, Clauses& clauses) {
+    const BoundClause& on = clauses.need("on");
+    const Expr& expr = clauses.value(on);
+    if (expr.kind != ExprKind::name)
+      fail(program_, Message("G0306", "`on` takes the name of an edge of this panel", expr.span));
+    std::string name = name_of(program_, expr, *on.scope);
+    if (const auto renamed = item.renamed.find(name); renamed != item.renamed.end()) name = renamed->second;
+    std::vector<std::string> names;
+    for (const design::Edge& edge : panel_.edges) {
+      if (edge.name == name) return edge;
+      names.push_back(edge.name);
+    }
+    fail(program_, Message("G0301", "panel `" + panel_.name + "` has no edge `" + name + "`", expr.span)
+                       .help(did_you_mean(name, names)));
+  }
+
+  double position(const BoundClause& at, const design::Edge& edge, const std::string& what) {
+    const double length = edge.curve.length();
+    auto mark = [&](std::string_view name) -> std::optional<double> {
+      if (name == "start") return 0.0;
+      if (name == "end") return length;
+      for (const design::Notch& notch : panel_.notches)
+        if (notch.name == name && notch.edge == edge.name) return notch.at;
+      return std::nullopt;
+    };
+    return eval_position(program_, at.clause->values, *at.scope, length, mark, at.clause->span, what);
+  }
+
+  void add_notch(const RecipeItem& item) {
+    std::vector<Override> overrides = item.overrides;
+    Clauses clauses(program_, *item.statement, *item.scope, &overrides);
+    const design::Edge& edge = edge_of(item, clauses);
+    const BoundClause& at = clauses.need("at");
+    const double s = position(at, edge, "a notch");
+    clauses.finish();
+    const double length = edge.curve.length();
+    if (!(s >= -1e-6 && s <= length + 1e-6))
+      fail(program_, Message("G0414",
+                             "notch `" + item.name + "` is at " + format_quantity(s, kLength) + " of edge `" +
+                                 edge.name + "`; the edge is " + format_quantity(length, kLength) + " long",
+                             at.clause->span));
+    panel_.notches.push_back(
+        {item.name, program_.origin(item.statement->span), edge.name, std::clamp(s, 0.0, length)});
+    info_.spans[item.name] = name_span(item);
+  }
+
+  void add_dart(const RecipeItem& item) {
+    std::vector<Override> overrides = item.overrides;
+    Clauses clauses(program_, *item.statement, *item.scope, &overrides);
+    if (clauses.has("inside"))
+      fail(program_,
+           Message("G0315", "`inside` of `dart` is not supported yet", clauses.find("inside")->clause->span));
+    const design::Edge& edge = edge_of(item, clauses);
+    const double length = edge.curve.length();
+    design::EdgeDart dart;
+    dart.name = item.name;
+    dart.origin = program_.origin(item.statement->span);
+    dart.edge = edge.name;
+    const BoundClause* at = clauses.find("at");
+    dart.at = at != nullptr ? position(*at, edge, "a dart") : length / 2;
+    const auto width = clauses.quantity("width");
+    if (!width) clauses.need("width");
+    dart.width = *width;
+    const auto depth = clauses.quantity("depth");
+    const BoundClause* to = clauses.find("to");
+    if ((to != nullptr) == depth.has_value())
+      fail(program_,
+           Message(depth ? "G0415" : "G0312",
+                   "dart `" + item.name + "` needs " + (depth ? "one tip: `depth` or `to`" : "a tip"),
+                   name_span(item))
+               .help("write `depth 9 cm` or `to POINT`"));
+    if (depth) dart.depth = *depth;
+    if (to != nullptr) {
+      const PointValue p = eval_point(program_, clauses.value(*to), *to->scope, 2, kLength, "`to`");
+      dart.apex = Point2(p.at[0], p.at[1]);
+    }
+    clauses.finish();
+    check_mouth(item, dart, edge);
+    check_depth(item, dart, edge);
+    panel_.darts.push_back(dart);
+    info_.spans[item.name] = name_span(item);
+  }
+
+  void check_mouth(const RecipeItem& item, const design::EdgeDart& dart, const design::Edge& edge) {
+    const double length = edge.curve.length(), from = dart.at - dart.width / 2, to = dart.at + dart.width / 2;
+    if (from < -1e-9 || to > length + 1e-9)
+      fail(program_, Message("G0408",
+                             "the mouth of dart `" + item.name + "` is at " + format_quantity(from, kLength) +
+                                 " .. " + format_quantity(to, kLength) + "; edge `" + edge.name + "` is " +
+                                 format_quantity(length, kLength) + " long",
+                             name_span(item))
+                         .help("move it along the edge or make it narrower"));
+    for (const design::EdgeDart& other : panel_.darts) {
+      if (other.edge != dart.edge || std::fabs(other.at - dart.at) >= (other.width + dart.width) / 2)
+        continue;
+      fail(program_,
+           Message("G0417",
+                   "darts `" + other.name + "` and `" + item.name + "` overlap on edge `" + edge.name + "`",
+                   name_span(item))
+               .also(info_.spans[other.name], "at " + format_quantity(other.at, kLength)));
+    }
+  }
+
+  double signed_area() const {
+    double area = 0;
+    for (const design::Edge& edge : panel_.edges) area += edge.curve.area_term();
+    return area;
+  }
+
+  void check_depth(const RecipeItem& item, const design::EdgeDart& dart, const design::Edge& edge) {
+    const Point2 middle = edge.curve.point_at(dart.at), t = edge.curve.tangent_at(dart.at);
+    Point2 way(-t.y(), t.x());
+    if (signed_area() < 0) way = -way;
+    double depth = dart.depth;
+    if (dart.apex) {
+      depth = (*dart.apex - middle).norm();
+      if (depth < 5e-3)
+        fail(program_, Message("G0407", "dart `" + item.name + "` has no depth", name_span(item)));
+      way = (*dart.apex - middle) / depth;
+    }
+    const double room = depth_inside(panel_, middle, way, 1e-4);
+    if (depth < room && (!dart.apex || contains(panel_, *dart.apex, 0))) return;
+    fail(program_,
+         Message("G0407",
+                 "dart `" + item.name + "` is " + format_quantity(depth, kLength) + " deep; the panel is " +
+                     format_quantity(std::min(room, 100.0), kLength) + " deep there",
+                 name_span(item))
+             .help("make it shallower, or place it elsewhere"));
+  }
+
+  void mirror() {
+    for (design::Edge& edge : panel_.edges) edge.curve = edge.curve.mirrored_x(0);
+    for (design::EdgeDart& dart : panel_.darts)
+      if (dart.apex) dart.apex = Point2(-dart.apex->x(), dart.apex->y());
+    panel_.grain_angle = -panel_.grain_angle;
+  }
+
+  void open_fold() {
+    std::size_t fold = panel_.edges.size();
+    std::vector<std::string> names;
+    for (std::size_t k = 0; k < panel_.edges.size(); ++k) {
+      names.push_back(panel_.edges[k].name);
+      if (panel_.edges[k].name == recipe_->fold) fold = k;
+    }
+    if (fold == panel_.edges.size())
+      fail(program_,
+           Message("G0301", "panel `" + panel_.name + "` has no edge `" + recipe_->fold + "` to fold on",
+                   recipe_->fold_span)
+               .help(did_you_mean(recipe_->fold, names)));
+    for (const design::Notch& notch : panel_.notches) refuse_on_fold(notch.edge, notch.name);
+    for (const design::EdgeDart& dart : panel_.darts) refuse_on_fold(dart.edge, dart.name);
+    const double fold_x = panel_.edges[fold].curve.start().x();
+    double reach = 0;
+    for (const design::Edge& edge : panel_.edges)
+      reach += edge.curve.point_at(edge.curve.length() / 2).x() - fold_x;
+    const bool drawn_is_left = (reach > 0) != info_.on_back;
+    const std::size_t n = panel_.edges.size();
+    design::UnfoldResult whole = design::unfold(panel_, fold, drawn_is_left);
+    for (Diagnostic& diagnostic : to_diagnostics(whole.findings, program_.origins)) {
+      Message message("", "", head_span());
+      message.diagnostic = std::move(diagnostic);
+      report(program_, std::move(message));
+    }
+    if (!whole.panel) throw Stop{};
+    drawn_names_ = names;
+    drawn_spans_ = spans_;
+    panel_ = *whole.panel;
+    info_.folded = true;
+    name_halves(n, fold, drawn_is_left);
+  }
+
+  void refuse_on_fold(const std::string& edge, const std::string& name) {
+    if (edge != recipe_->fold) return;
+    fail(program_, Message("G0414", "`" + name + "` stands on the fold, which is no edge of the opened panel",
+                           info_.spans[name])
+                       .help("notches and darts stand on the other edges"));
+  }
+
+  design::EdgePart part(std::size_t edge, bool with_curve) const {
+    const double length = panel_.edges[edge].curve.length();
+    return {declaration_.index, static_cast<int>(edge), with_curve ? 0 : length, with_curve ? length : 0};
+  }
+
+  /// Whole: edges 0 .. n-2 as drawn from the fold's end, then their images in reverse order.
+  void name_halves(std::size_t n, std::size_t fold, bool drawn_is_left) {
+    const std::string drawn = drawn_is_left ? "left" : "right", mirrored = drawn_is_left ? "right" : "left";
+    for (std::size_t k = 0; k + 1 < n; ++k) {
+      const std::size_t source = (fold + 1 + k) % n, image = 2 * (n - 1) - 1 - k;
+      const Span span = drawn_spans_[source];
+      info_.edges.push_back({drawn_names_[source], drawn, {part(k, true)}, span});
+      info_.edges.push_back({drawn_names_[source], mirrored, {part(image, false)}, span});
+      if (k == 0) info_.edges.push_back({drawn_names_[source], "", {part(image, true), part(k, true)}, span});
+      if (k + 2 == n && k > 0)
+        info_.edges.push_back({drawn_names_[source], "", {part(k, true), part(image, true)}, span});
+    }
+  }
+
+  void finish() {
+    const double area = signed_area();
+    info_.counter_clockwise = area > 0;
+    info_.area = std::fabs(area);
+    if (info_.area < 1e-6)
+      fail(program_, Message("G0401", "the outline of `" + panel_.name + "` encloses no area", head_span()));
+    if (!info_.folded) {
+      if (recipe_->outline.statement->operands.empty()) {
+        for (std::size_t k = 0; k < panel_.edges.size(); ++k)
+          info_.edges.push_back({panel_.edges[k].name, "", {part(k, true)}, spans_[k]});
+      } else {
+        std::string name = panel_.edges[0].name;
+        name.resize(name.size() - 2);  // "rim.1"
+        info_.edges.push_back({name, "", {part(0, true), part(1, true)}, spans_[0]});
+      }
+    }
+    Point2 low(1e9, 1e9), high(-1e9, -1e9);
+    for (const design::Edge& edge : panel_.edges)
+      for (const Point2& p : edge.curve.polyline(1e-3)) low = low.cwiseMin(p), high = high.cwiseMax(p);
+    const double narrow = (high - low).minCoeff();
+    if (narrow < 2 * panel_.resolution)
+      report(program_, Message("G0410",
+                               "panel `" + panel_.name + "` is " + format_quantity(narrow, kLength) +
+                                   " across: fewer than 3 particles at a resolution of " +
+                                   format_quantity(panel_.resolution, kLength),
+                               head_span())
+                           .warning()
+                           .help("state `resolution " +
+                                 format_quantity(std::max(1e-3, narrow / 4), kLength, false, 1) + "`"));
+    info_.ready = true;
+  }
+
+  Program& program_;
+  Declaration& declaration_;
+  PanelInfo& info_;
+  design::Panel& panel_;
+  const Recipe* recipe_ = nullptr;
+  std::vector<Span> spans_, drawn_spans_;
+  std::vector<std::string> drawn_names_;
+  bool failed_ = false;
+};
+
+/// The word after the last dot of `form.back`, as written.
+bool names_back(const Statement& statement) {
+  for (const Clause& clause : statement.clauses)
+    if (clause.word.text == "on" && clause.values.size() == 1 && clause.values[0].kind == ExprKind::member &&
+        clause.values[0].text == "back")
+      return true;
+  return false;
+}
+
+}  // namespace
+
+Value evaluate_panel(Program& program, Declaration& declaration) {
+  PanelMaker(program, declaration, program.panels[static_cast<std::size_t>(declaration.index)]).make();
+  return Value{PanelValue{declaration.index}};
+}
+
+void find_backs(Program& program) {
+  for (const Item& item : program.main->items) {
+    if (item.declaration != nullptr && item.statement->keyword.text == "panel" && item.statement->body)
+      for (const Statement& inner : *item.statement->body)
+        if (inner.keyword.text == "place" && names_back(inner))
+          program.panels[static_cast<std::size_t>(item.declaration->index)].on_back = true;
+    if (item.statement->keyword.text != "place" || item.statement->operands.size() != 1) continue;
+    const Expr& panel = item.statement->operands[0];
+    if (panel.kind != ExprKind::name || !names_back(*item.statement)) continue;
+    try {
+      const Declaration* declaration = find_declaration(*item.scope, name_of(program, panel, *item.scope));
+      if (declaration != nullptr && declaration->index >= 0 &&
+          declaration->statement->keyword.text == "panel")
+        program.panels[static_cast<std::size_t>(declaration->index)].on_back = true;
+    } catch (const Stop&) {
+    }
+  }
+}
+
+}  // namespace garment::interpreter

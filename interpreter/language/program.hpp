@@ -1,0 +1,177 @@
+#pragma once
+// Everything one interpretation knows while it runs: scopes, declarations, the garment as far as it is made,
+// budgets. Only the interpreter's own files include this.
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "grammar/syntax_tree.hpp"
+#include "interpreter/language/construct_table.hpp"
+#include "interpreter/language/interpret.hpp"
+#include "interpreter/language/value.hpp"
+#include "runtime/body/body.hpp"
+
+namespace garment::interpreter {
+
+using grammar::Clause;
+using grammar::Diagnostic;
+using grammar::Expr;
+using grammar::ExprKind;
+using grammar::Span;
+using grammar::Statement;
+
+/// This declaration or statement cannot go on; a diagnostic was given. Never leaves the room.
+struct Stop {};
+/// A budget is spent: nothing goes on. Never leaves the room.
+struct Exhausted {};
+
+struct Scope;
+struct Recipe;
+
+/// A clause with the scope its values are evaluated in: assignments put clauses of one place into another
+/// statement.
+struct BoundClause {
+  const Clause* clause = nullptr;
+  Scope* scope = nullptr;
+};
+
+/// `name.property = value`, seen from the statement it changes.
+struct Override {
+  std::vector<std::string> path;  ///< after the declared name
+  const Expr* value = nullptr;
+  Scope* scope = nullptr;
+  Span span;
+  bool used = false;
+};
+
+struct Declaration {
+  enum class State { waiting, running, done, failed };
+  std::string name;
+  const Statement* statement = nullptr;
+  Scope* scope = nullptr;
+  Module* module = nullptr;
+  State state = State::waiting;
+  int index = -1;  ///< among panels, bodies, seams or pins
+  Value value;
+  std::vector<Override> overrides;
+};
+
+/// Names visible at a place. Statement scopes live in Program::scopes; a call's scope lives on the stack.
+struct Scope {
+  Scope* parent = nullptr;
+  Module* module = nullptr;
+  std::string half;  ///< "left" or "right" inside `both`
+  mutable bool half_used = false;
+  std::map<std::string, Value, std::less<>> values;
+  std::map<std::string, Declaration*, std::less<>> declared;
+};
+
+/// A statement ready to run, in source order.
+struct Item {
+  const Statement* statement = nullptr;
+  Scope* scope = nullptr;
+  Declaration* declaration = nullptr;  ///< nothing for unnamed statements
+};
+
+/// One source file: the script, or a used library.
+struct Module {
+  std::string name;
+  bool library = false;
+  int depth = 0;
+  bool has_broken = false;  ///< a broken statement may have declared anything: unknown names stay unsaid
+  grammar::Script script;
+  Scope* scope = nullptr;
+  std::vector<Item> items;
+};
+
+/// An edge as a script speaks of it.
+struct NamedEdge {
+  std::string name;                     ///< "side", without the half
+  std::string half;                     ///< "left", "right", or "" for the whole
+  std::vector<design::EdgePart> parts;  ///< in drawn direction
+  Span span;
+};
+
+struct PanelInfo {
+  design::Panel panel;
+  bool ready = false;
+  bool folded = false;
+  double area = 0;                ///< of the outline, m^2
+  bool counter_clockwise = true;  ///< sense of Panel::edges
+  std::vector<NamedEdge> edges;
+  std::map<std::string, Span> spans;  ///< of darts and notches
+  bool on_back = false;               ///< placed on a `.back`: left is the smaller-x half
+};
+
+struct SeamInfo {
+  design::Seam seam;
+  std::vector<EdgeValue> sides;  ///< as written
+  std::vector<Span> spans;
+  bool ready = false;
+};
+
+struct Program {
+  grammar::Sources& sources;
+  Host& host;
+  InterpretOptions options;
+
+  std::deque<Module> modules;
+  std::deque<Scope> scopes;
+  std::deque<Declaration> declarations;
+  std::deque<Statement> made_statements;  ///< copies that `both` and assignments made
+  std::deque<Clause> made_clauses;
+  std::map<std::string, Module*> loaded;  ///< by path
+  Module* main = nullptr;
+
+  design::Garment garment;
+  std::vector<PanelInfo> panels;
+  std::vector<SeamInfo> seams;
+  std::map<int, std::shared_ptr<const Recipe>> recipes;  ///< by panel
+  std::vector<Item> panel_places;                        ///< `place` inside a panel's block
+  std::map<const design::Fabric*, int> fabric_index;
+  std::vector<std::shared_ptr<const body::Body>> built;  ///< by body index; empty until asked
+  std::vector<bool> build_failed;
+  std::set<int> placed;
+  std::vector<Act> acts;
+  std::vector<MeasureValue> measures;
+  std::vector<Parameter> parameters;
+  std::map<std::string, std::string> given;  ///< parameters not yet met
+  bool title_seen = false;
+
+  grammar::Diagnostics diagnostics;
+  bool has_error = false;
+  std::vector<Span> origins{Span{}};
+  std::vector<Declaration*> running;     ///< for cycles
+  std::vector<Span> calls;               ///< places of the calls being run
+  const DrapeMeasures* drape = nullptr;  ///< while an `expect` is evaluated
+  std::size_t steps = 0;
+  int depth = 0;
+  std::size_t expanded = 0;  ///< statements made by loops
+
+  Program(grammar::Sources& s, Host& h, InterpretOptions o) : sources(s), host(h), options(std::move(o)) {}
+
+  /// A new id for a place of the script.
+  OriginId origin(Span span);
+  Scope& new_scope(Scope* parent);
+  bool in_library(Span span) const;
+};
+
+/// Starts a diagnostic; the chain ends with `report` (goes on) or `fail` (stops this statement).
+struct Message {
+  Diagnostic diagnostic;
+  Message(std::string code, std::string text, Span span, std::string label = {});
+  Message& warning();
+  Message& also(Span span, std::string label);
+  Message& help(std::string text);
+};
+void report(Program& program, Message message);
+[[noreturn]] void fail(Program& program, Message message);
+
+/// One step of work; stops everything after 50 million.
+void count_step(Program& program, Span span);
+
+}  // namespace garment::interpreter

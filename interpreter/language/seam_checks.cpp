@@ -1,0 +1,196 @@
+// Checks that need all seams: chains meet, nothing is left unsewn by mistake.
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "interpreter/language/edges.hpp"
+#include "interpreter/language/seams.hpp"
+
+namespace garment::interpreter {
+namespace {
+
+using design::EdgePart;
+using design::Point2;
+
+constexpr double kSame = 1e-3;    // m, points of a panel this near are one corner
+constexpr double kUnsewn = 2e-3;  // m of an edge that may stay unsewn unsaid
+
+/// Corners of panels, joined where seams begin and end.
+class Corners {
+ public:
+  explicit Corners(const Program& program) : program_(program) {}
+
+  std::size_t of(const EdgePart& part, bool at_end) {
+    const design::Panel& panel = program_.panels[static_cast<std::size_t>(part.panel)].panel;
+    const Point2 p =
+        panel.edges[static_cast<std::size_t>(part.edge)].curve.point_at(at_end ? part.to : part.from);
+    for (std::size_t k = 0; k < points_.size(); ++k)
+      if (points_[k].first == part.panel && (points_[k].second - p).norm() < kSame) return root(k);
+    points_.emplace_back(part.panel, p);
+    parent_.push_back(points_.size() - 1);
+    return points_.size() - 1;
+  }
+
+  void join(std::size_t a, std::size_t b) {
+    a = root(a);
+    b = root(b);
+    if (a != b) parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+  std::size_t root(std::size_t k) const {
+    while (parent_[k] != k) k = parent_[k];
+    return k;
+  }
+
+ private:
+  const Program& program_;
+  std::vector<std::pair<int, Point2>> points_;
+  std::vector<std::size_t> parent_;
+};
+
+void check_links(Program& program, Corners& corners, const SeamInfo& info, std::size_t side) {
+  const std::vector<EdgePart>& parts = info.seam.sides[side].parts;
+  for (std::size_t k = 0; k + 1 < parts.size(); ++k) {
+    if (corners.of(parts[k], true) == corners.of(parts[k + 1], false)) continue;
+    const bool turned = corners.of(parts[k], true) == corners.of(parts[k + 1], true) ||
+                        corners.of(parts[k], false) == corners.of(parts[k + 1], false);
+    auto name = [&](const EdgePart& part) {
+      const design::Panel& panel = program.panels[static_cast<std::size_t>(part.panel)].panel;
+      return panel.name + '.' + panel.edges[static_cast<std::size_t>(part.edge)].name;
+    };
+    // Sides after the first run against the way they are written.
+    const EdgePart& first = side > 0 ? parts[k + 1] : parts[k];
+    const EdgePart& second = side > 0 ? parts[k] : parts[k + 1];
+    report(
+        program,
+        Message("G0503",
+                "in seam `" + info.seam.name + "` the end of `" + name(first) +
+                    "` does not meet the start of `" + name(second) + "`",
+                info.spans[side])
+            .help(turned ? "walk one of them the other way: put `-` before it"
+                         : "links must meet where another seam joins them; is their order right, or a seam "
+                           "between them missing?"));
+    return;
+  }
+}
+
+struct Interval {
+  double from, to;
+  int seam;
+};
+
+using Cover = std::map<std::pair<int, int>, std::vector<Interval>>;
+
+void cover(Cover& all, const EdgePart& part, int seam) {
+  all[{part.panel, part.edge}].push_back({std::min(part.from, part.to), std::max(part.from, part.to), seam});
+}
+
+/// Length of an edge that nothing covers; the mouths of darts count as covered.
+double uncovered(const PanelInfo& info, std::size_t edge, std::vector<Interval> covers) {
+  const design::Edge& e = info.panel.edges[edge];
+  for (const design::EdgeDart& dart : info.panel.darts)
+    if (dart.edge == e.name) covers.push_back({dart.at - dart.width / 2, dart.at + dart.width / 2, -1});
+  std::sort(covers.begin(), covers.end(),
+            [](const Interval& a, const Interval& b) { return a.from < b.from; });
+  double open = 0, reached = 0;
+  for (const Interval& c : covers) {
+    open += std::max(0.0, c.from - reached);
+    reached = std::max(reached, c.to);
+  }
+  return open + std::max(0.0, e.curve.length() - reached);
+}
+
+void warn_sewn_twice(Program& program, const Cover& all) {
+  for (const auto& [key, covers] : all)
+    for (std::size_t i = 0; i < covers.size(); ++i)
+      for (std::size_t j = i + 1; j < covers.size(); ++j) {
+        const Interval &a = covers[i], &b = covers[j];
+        if (a.seam < 0 || b.seam < 0 || a.seam == b.seam) continue;
+        if (std::min(a.to, b.to) - std::max(a.from, b.from) < kUnsewn) continue;
+        const SeamInfo &one = program.seams[static_cast<std::size_t>(a.seam)],
+                       &two = program.seams[static_cast<std::size_t>(b.seam)];
+        const design::Panel& panel = program.panels[static_cast<std::size_t>(key.first)].panel;
+        report(program,
+               Message("G0508",
+                       "edge `" + panel.name + '.' + panel.edges[static_cast<std::size_t>(key.second)].name +
+                           "` is sewn by seam `" + one.seam.name + "` and by seam `" + two.seam.name + "`",
+                       two.spans[0])
+                   .also(one.spans[0], "first here")
+                   .help("one seam may have more than two sides: `seam NAME: A to B to C`")
+                   .warning());
+      }
+}
+
+}  // namespace
+
+void check_chains(Program& program) {
+  Corners corners(program);
+  for (const SeamInfo& info : program.seams) {
+    if (!info.ready) continue;
+    for (const design::SeamSide& side : info.seam.sides) {
+      corners.join(corners.of(side.parts.front(), false),
+                   corners.of(info.seam.sides[0].parts.front(), false));
+      corners.join(corners.of(side.parts.back(), true), corners.of(info.seam.sides[0].parts.back(), true));
+    }
+  }
+  for (SeamInfo& info : program.seams) {
+    if (!info.ready) continue;
+    for (std::size_t k = 0; k < info.seam.sides.size(); ++k) {
+      design::SeamSide& side = info.seam.sides[k];
+      check_links(program, corners, info, k);
+      side.closed = corners.of(side.parts.front(), false) == corners.of(side.parts.back(), true);
+    }
+  }
+}
+
+void check_unsewn(Program& program) {
+  Cover all;
+  for (std::size_t k = 0; k < program.seams.size(); ++k)
+    for (const design::SeamSide& side : program.seams[k].seam.sides)
+      for (const EdgePart& part : side.parts) cover(all, part, static_cast<int>(k));
+  warn_sewn_twice(program, all);
+  for (const design::Attachment& attachment : program.garment.attachments)
+    for (const EdgePart& part : attachment.parts) cover(all, part, -1);
+  for (std::size_t p = 0; p < program.panels.size(); ++p) {
+    const PanelInfo& info = program.panels[p];
+    auto open_length = [&](const NamedEdge& edge) {
+      double open = 0;
+      for (const EdgePart& part : edge.parts) {
+        const std::size_t index = static_cast<std::size_t>(part.edge);
+        if (info.panel.edges[index].free) continue;
+        const auto covers = all.find({static_cast<int>(p), part.edge});
+        open += uncovered(info, index, covers == all.end() ? std::vector<Interval>{} : covers->second);
+      }
+      return open;
+    };
+    auto warn = [&](const NamedEdge& edge, const std::string& half, double open) {
+      const double length = [&] {
+        double sum = 0;
+        for (const EdgePart& part : edge.parts) sum += std::fabs(part.to - part.from);
+        return sum;
+      }();
+      const std::string name = info.panel.name + '.' + (half.empty() ? "" : half + '.') + edge.name;
+      const bool whole = open > length - kUnsewn;
+      report(program, Message("G0505",
+                              (whole ? "edge `" : format_quantity(open, kLength) + " of edge `") + name +
+                                  "` is neither sewn nor attached",
+                              edge.span)
+                          .warning()
+                          .help("sew it, attach it, or mark it `free`"));
+    };
+    for (const NamedEdge& edge : info.edges) {
+      if (edge.half == "right" || (edge.half.empty() && info.folded)) continue;
+      const double open = open_length(edge);
+      const NamedEdge* twin = edge.half.empty() ? nullptr : find_edge(info, "right", edge.name);
+      const double other = twin == nullptr ? 0 : open_length(*twin);
+      if (open > kUnsewn && other > kUnsewn)
+        warn(edge, "", open);
+      else if (open > kUnsewn)
+        warn(edge, edge.half, open);
+      else if (other > kUnsewn)
+        warn(*twin, "right", other);
+    }
+  }
+}
+
+}  // namespace garment::interpreter

@@ -1,0 +1,18 @@
+#pragma once
+// Seams: sides as chains, orientation, the law of lengths, and what stays unsewn.
+#include "interpreter/language/program.hpp"
+
+namespace garment::interpreter {
+
+Value evaluate_seam(Program& program, Declaration& declaration);
+
+/// After all seams: links of chains must meet where other seams join them (G0503); rings are marked closed.
+void check_chains(Program& program);
+
+/// Warns of edges that are neither sewn, attached nor free (G0505), and of edges sewn by two seams (G0508).
+void check_unsewn(Program& program);
+
+/// `pin NAME on PANEL at POINT`.
+Value evaluate_pin(Program& program, Declaration& declaration);
+
+}  // namespace garment::interpreter

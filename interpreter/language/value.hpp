@@ -1,0 +1,134 @@
+#pragma once
+// What an expression can be: numbers with dimension, text, points, lists, records, functions, and the things
+// a garment is made of.
+#include <array>
+#include <memory>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "interpreter/language/units.hpp"
+#include "runtime/design/garment.hpp"
+
+namespace garment::interpreter {
+
+struct Value;
+struct Declaration;
+struct FunctionRecord;
+struct Module;
+
+struct Quantity {
+  double value = 0;  ///< SI
+  Dimension dimension;
+  bool percent = false;  ///< written as 50%; only for printing and for `within`
+};
+
+/// 2 or 3 coordinates of one dimension; `panel` >= 0 where the point is known to lie on that panel.
+struct PointValue {
+  std::array<double, 3> at{};
+  int size = 2;
+  Dimension dimension = kLength;
+  int panel = -1;
+};
+
+struct RangeValue {
+  Quantity from, to;
+};
+
+using ListValue = std::shared_ptr<const std::vector<Value>>;
+using RecordFields = std::vector<std::pair<std::string, Value>>;
+using RecordValue = std::shared_ptr<const RecordFields>;
+
+/// A declared `fn`, a builtin function, a used library file.
+struct FunctionValue {
+  const Declaration* declaration = nullptr;
+};
+struct BuiltinValue {
+  const FunctionRecord* record = nullptr;
+};
+struct ModuleValue {
+  Module* module = nullptr;
+};
+
+struct FabricValue {
+  std::shared_ptr<const design::Fabric> fabric;
+};
+/// A shape not yet declared as a body: what `bodies.woman(...)` or `sphere(...)` gives.
+struct ShapeValue {
+  decltype(design::Body::shape) shape;
+};
+struct BodyValue {
+  int body = -1;
+};
+/// A level or a part of a body ("waist", "arm.left"); which of the two is decided where it is used.
+struct BodyPlaceValue {
+  int body = -1;
+  std::string path;
+};
+
+struct PanelValue {
+  int panel = -1;
+};
+/// `front.left`: one half of a panel on the fold.
+struct HalfValue {
+  int panel = -1;
+  std::string half;
+};
+/// A named edge or part of one, in drawn direction.
+struct EdgeSpan {
+  int panel = -1;
+  std::string name;                     ///< "front.left.side"
+  std::vector<design::EdgePart> parts;  ///< follow each other along the drawn direction
+  bool backwards = false;               ///< a leading `-`: walked against the rule
+};
+/// One edge or a chain of edges.
+struct EdgeValue {
+  std::vector<EdgeSpan> spans;
+};
+struct DartValue {
+  int panel = -1;
+  std::string name;
+};
+struct NotchValue {
+  int panel = -1;
+  std::string name;
+};
+struct SeamValue {
+  int seam = -1;
+};
+struct PinValue {
+  int pin = -1;
+};
+/// The word `all`, and `draped` (whose members ask the drape).
+struct AllValue {};
+struct DrapedValue {};
+
+struct Value {
+  std::variant<std::monostate, Quantity, bool, std::string, PointValue, ListValue, RangeValue, RecordValue,
+               FunctionValue, BuiltinValue, ModuleValue, FabricValue, ShapeValue, BodyValue, BodyPlaceValue,
+               PanelValue, HalfValue, EdgeValue, DartValue, NotchValue, SeamValue, PinValue, AllValue,
+               DrapedValue>
+      data;
+
+  template <class T>
+  const T* as() const {
+    return std::get_if<T>(&data);
+  }
+};
+
+inline Value number_value(double value, Dimension dimension = {}, bool percent = false) {
+  return Value{Quantity{value, dimension, percent}};
+}
+
+/// A literal 0 needs no unit: it fits every dimension.
+inline bool is_plain_zero(const Quantity& q) { return q.value == 0 && q.dimension.none(); }
+
+/// "a length", "a panel", "text": what kind of thing this is; for messages.
+std::string kind_of(const Value& value);
+/// The value as a person reads it ("58 cm", "[1, 2]", "panel"). At most about 200 characters.
+std::string show(const Value& value);
+/// Equality as `==` means it; false where the kinds differ.
+bool same_value(const Value& a, const Value& b);
+
+}  // namespace garment::interpreter
