@@ -16,15 +16,22 @@ namespace {
 using Eigen::Vector3d;
 using Vectors = std::vector<Vector3d>;
 
-constexpr double kSoftTensile = 0.1;       // share of the tensile stiffness in the first settling (continuation)
-constexpr double kSoftResidual = 0.5;      // residual at which the true stiffness comes in
+constexpr double kSoftTensile = 0.1;        // share of the tensile stiffness in the first stages (continuation)
+constexpr double kSoftResidual = 0.5;       // residual at which the true stiffness comes in
 constexpr int kSoftSteps = 60;
-constexpr double kRestStep = 0.5e-3;       // m, largest Newton step of a garment at rest
-constexpr double kRestTimeStep = 0.25;     // s, the step is judged with little regularisation only
-constexpr int kDressingSteps = 600;
-constexpr int kDressingCheck = 5;          // steps between two looks whether everything is free
-constexpr double kExtraOffset = 1e-3;      // m, by which a particle of a pierced part is pushed farther, each look
-constexpr double kMostExtraOffset = 20e-3; // m
+constexpr double kClosedStrain = 0.3;       // largest strain of seams that count as closed
+constexpr int kDressingSteps = 300;
+constexpr int kLookEvery = 10;              // steps between two looks at the strain
+constexpr double kClosingRate = 0.95;       // strain over the strain at the last look of seams that still close
+constexpr double kNearRest = 1;             // residual from which the body is looked at
+constexpr int kRepairEvery = 10;            // steps between two looks at the body
+constexpr double kFirstTimeStep = 1.0 / 60; // s
+constexpr double kRestStep = 0.5e-3;        // m, largest Newton step of a garment at rest
+constexpr double kRestTimeStep = 0.25;      // s, the step is judged with little regularisation only
+constexpr int kMostRefused = 12;            // steps in a row
+constexpr int kMostRepairs = 12;            // times that a garment at rest may still pierce a body
+constexpr double kExtraOffset = 1e-3;       // m, by which a particle of a pierced part is pushed farther, each time
+constexpr double kMostExtraOffset = 20e-3;  // m
 
 double target_residual(Settle settle) {
   switch (settle) {
@@ -94,87 +101,132 @@ std::string panels_of(const model::Model& model, const ContactMesh& mesh, const 
   return names.empty() ? "the garment" : names;
 }
 
-/// Brings a tangled or penetrating start onto the body: seams contract, bodies push out, cloth that cuts cloth is taken
-/// apart. Returns true when nothing cuts anything any more.
-bool dress(Drape& d, const ContactMesh& walls) {
-  RelaxationSettings settings;
-  settings.self_collision = d.settings.self_collision;
-  settings.bodies_are_walls = false;
-  settings.body_offset = 3e-3;
-  settings.gravity_scale = 0;
-  Relaxation relaxation(d.model, d.bodies, settings);
-  relaxation.set_tensile_scale(kSoftTensile);
-  static const std::vector<body::Body> kNoBodies;
-  if (settings.self_collision) relaxation.set_tangle(find_tangle(relaxation.mesh(), kNoBodies, d.x));
-  bool weighted = false;
-  for (int k = 1; k <= kDressingSteps; ++k) {
-    if (d.stop_asked()) return false;
-    StepReport step = relaxation.step(d.x);
-    ++d.report.steps;
-    d.tell(step, "dressing");
-    if (!all_finite(d.x)) return false;
-    if (k % kDressingCheck != 0) continue;
-    double strain = largest_spring_strain(d.model, d.x);
-    if (!weighted && strain < 0.3) {
-      relaxation.set_gravity_scale(1);
-      weighted = true;
-    }
-    Tangle tangle = find_tangle(walls, d.bodies, d.x);
-    if (tangle.empty()) return true;
-    if (strain > 0.5 && k < kDressingSteps / 2) continue;
-    for (const EdgeHit& h : tangle.hits)
-      for (Index p : {walls.edge[h.edge][0], walls.edge[h.edge][1], walls.triangle[h.triangle][0],
-                      walls.triangle[h.triangle][1], walls.triangle[h.triangle][2]})
-        if (!walls.is_body(p) && (walls.is_body(walls.edge[h.edge][0]) || walls.is_body(walls.triangle[h.triangle][0])))
-          relaxation.extra_offset()[p] = std::min(kMostExtraOffset, relaxation.extra_offset()[p] + kExtraOffset);
+/// Pushes what pierces a body, or lies in it, farther out from now on.
+void push_pierced(const ContactMesh& mesh, const Tangle& tangle, Relaxation& relaxation) {
+  std::vector<bool> raise(static_cast<std::size_t>(mesh.n_particles), false);
+  for (const EdgeHit& h : tangle.hits) {
+    const auto& e = mesh.edge[h.edge];
+    const auto& t = mesh.triangle[h.triangle];
+    if (!mesh.is_body(e[0]) && !mesh.is_body(t[0])) continue;
+    for (Index p : {e[0], e[1], t[0], t[1], t[2]})
+      if (!mesh.is_body(p)) raise[p] = true;
   }
-  return false;
+  for (std::size_t i = 0; i < tangle.inside.size(); ++i)
+    if (tangle.inside[i]) raise[i] = true;
+  for (std::size_t i = 0; i < raise.size(); ++i)
+    if (raise[i])
+      relaxation.extra_offset()[i] = std::min(kMostExtraOffset, relaxation.extra_offset()[i] + kExtraOffset);
 }
 
-/// Settles an intersection-free garment to rest. Nothing is allowed to pass anything.
-DrapeStatus settle(Drape& d) {
-  RelaxationSettings settings;
-  settings.self_collision = d.settings.self_collision;
-  Relaxation relaxation(d.model, d.bodies, settings);
-  relaxation.set_tensile_scale(kSoftTensile);
-  bool soft = true;
-  int soft_steps = 0, refused = 0;
-  double target = target_residual(d.settings.settle);
-  while (d.report.steps < d.settings.max_steps) {
-    if (d.stop_asked()) return DrapeStatus::interrupted;
-    Vectors before = d.x;
-    StepReport step = relaxation.step(d.x);
-    ++d.report.steps;
-    if (!all_finite(d.x)) {
-      d.x = std::move(before);
-      return DrapeStatus::diverged;
+/// The garment's way to rest, stage by stage. Stages only ever go forward:
+///   dressing   without weight and at a share of the tensile stiffness: seams contract, bodies push out
+///   soft       with weight, still soft (continuation in the stiffness)
+///   settling   the true cloth, to rest
+/// At rest the exact test decides: what still pierces a body is pushed farther out, and settling goes on.
+class Way {
+ public:
+  Way(Drape& d, const ContactMesh& all) : d_(d), all_(all), relaxation_(d.model, d.bodies, relaxation_settings(d)) {
+    relaxation_.set_tensile_scale(kSoftTensile);
+    if (d.settings.self_collision) relaxation_.set_tangle(find_tangle(relaxation_.mesh(), no_bodies(), d.x));
+    if (largest_spring_strain(d.model, d.x) > kClosedStrain) {
+      stage_ = Stage::dressing;
+      relaxation_.set_gravity_scale(0);
     }
-    d.tell(step, "settling");
-    d.report.newton_step = step.newton_step;
-    if (soft && (step.residual < std::max(kSoftResidual, target) || ++soft_steps > kSoftSteps)) {
-      relaxation.set_tensile_scale(1);
-      relaxation.set_time_step(1.0 / 60);
-      soft = false;
-      continue;
-    }
-    bool judged = step.time_step >= kRestTimeStep;
-    if (!soft && step.residual <= target && (judged || d.settings.settle == Settle::preview) &&
-        (step.newton_step < kRestStep || d.settings.settle == Settle::preview)) {
-      d.x = std::move(before);  // the state that was judged
-      return DrapeStatus::at_rest;
-    }
-    refused = step.accepted ? 0 : refused + 1;
-    if (refused > 6) return DrapeStatus::not_settled;
   }
-  return DrapeStatus::not_settled;
-}
 
-void explain(Drape& d, const ContactMesh& walls) {
+  DrapeStatus go() {
+    double target = target_residual(d_.settings.settle);
+    while (d_.report.steps < d_.settings.max_steps) {
+      if (d_.stop_asked()) return DrapeStatus::interrupted;
+      before_ = d_.x;
+      StepReport step = relaxation_.step(d_.x);
+      ++d_.report.steps;
+      ++steps_in_stage_;
+      if (!all_finite(d_.x)) {
+        d_.x = before_;
+        return DrapeStatus::diverged;
+      }
+      d_.tell(step, stage_ == Stage::settling ? "settling" : "dressing");
+      d_.report.newton_step = step.newton_step;
+      refused_ = step.accepted ? 0 : refused_ + 1;
+      if (refused_ > kMostRefused) return DrapeStatus::not_settled;
+      if (stage_ != Stage::settling) {
+        advance(step, target);
+        continue;
+      }
+      bool rest = rests(step, target);
+      if (rest && !d_.settings.certify) return DrapeStatus::at_rest;
+      bool look = d_.settings.certify && step.residual < kNearRest && steps_in_stage_ % kRepairEvery == 0;
+      if (!rest && !look) continue;
+      if (rest) d_.x = before_;  // the state that was judged
+      Tangle tangle = find_tangle(all_, d_.bodies, d_.x);
+      if (rest && tangle.empty()) return DrapeStatus::at_rest;
+      if (rest && ++repairs_ > kMostRepairs) return DrapeStatus::tangled;
+      push_pierced(all_, tangle, relaxation_);
+      if (d_.settings.self_collision) relaxation_.set_tangle(find_tangle(relaxation_.mesh(), no_bodies(), d_.x));
+      if (rest) steps_in_stage_ = 0;
+    }
+    return DrapeStatus::not_settled;
+  }
+
+  Relaxation& relaxation() { return relaxation_; }
+
+ private:
+  enum class Stage { dressing, soft, settling };
+
+  static const std::vector<body::Body>& no_bodies() {
+    static const std::vector<body::Body> none;
+    return none;
+  }
+  static RelaxationSettings relaxation_settings(const Drape& d) {
+    RelaxationSettings settings;
+    settings.self_collision = d.settings.self_collision;
+    return settings;
+  }
+
+  void advance(const StepReport& step, double target) {
+    if (stage_ == Stage::dressing) {
+      if (steps_in_stage_ % kLookEvery != 0) return;
+      double strain = largest_spring_strain(d_.model, d_.x);
+      // Closed, or as far closed as the body lets it (a garment smaller than its body stays stretched).
+      bool closed = strain < kClosedStrain || strain > kClosingRate * last_strain_;
+      last_strain_ = strain;
+      if (!closed && steps_in_stage_ < kDressingSteps) return;
+      relaxation_.set_gravity_scale(1);
+      enter(Stage::soft);
+    } else if (step.residual < std::max(kSoftResidual, target) || steps_in_stage_ > kSoftSteps) {
+      relaxation_.set_tensile_scale(1);
+      enter(Stage::settling);
+    }
+  }
+
+  void enter(Stage stage) {
+    stage_ = stage;
+    steps_in_stage_ = 0;
+    relaxation_.set_time_step(kFirstTimeStep);
+  }
+
+  bool rests(const StepReport& step, double target) const {
+    if (steps_in_stage_ < 2 || step.residual > target) return false;
+    if (d_.settings.settle == Settle::preview) return true;
+    return step.time_step >= kRestTimeStep && step.newton_step < kRestStep;
+  }
+
+  Drape& d_;
+  const ContactMesh& all_;
+  Relaxation relaxation_;
+  Stage stage_ = Stage::soft;
+  int steps_in_stage_ = 0, refused_ = 0, repairs_ = 0;
+  double last_strain_ = 1e300;
+  Vectors before_;
+};
+
+void explain(Drape& d, const ContactMesh& all) {
   Findings& findings = d.report.findings;
   if (d.report.status == DrapeStatus::tangled) {
-    Tangle tangle = find_tangle(walls, d.bodies, d.x);
+    Tangle tangle = find_tangle(all, d.bodies, d.x);
     OriginId origin;
-    std::string names = panels_of(d.model, walls, tangle, origin);
+    std::string names = panels_of(d.model, all, tangle, origin);
     findings.push_back({"G0801", Severity::error,
                         fmt::format("{} could not be freed: {} places cut cloth or body, {} particles lie inside a body",
                                     names, tangle.hits.size(), tangle.n_inside),
@@ -199,21 +251,12 @@ DrapeReport drape(const model::Model& model, const std::vector<body::Body>& bodi
                   const DrapeSettings& settings) {
   DrapeReport report;
   Drape d{model, bodies, settings, report, state.position.empty() ? model.start : state.position};
-  ContactMesh walls(model, bodies, ContactOptions{settings.self_collision, 0, 0});
-  bool free = find_tangle(walls, bodies, d.x).empty();
-  if (!free) free = dress(d, walls);
-  if (free)
-    report.status = settle(d);
-  else
-    report.status = d.stop_asked() ? DrapeStatus::interrupted : DrapeStatus::tangled;
-
-  RelaxationSettings as_written;
-  as_written.self_collision = settings.self_collision;
-  as_written.bodies_are_walls = free;
-  Relaxation judge(model, bodies, as_written);
+  ContactMesh all(model, bodies, ContactOptions{settings.self_collision, 0, 0});
+  Way way(d, all);
+  report.status = way.go();
   Vectors force;
-  report.residual = judge.residual(d.x, force);
-  report.energy = judge.energy(d.x);
+  report.residual = way.relaxation().residual(d.x, force);
+  report.energy = way.relaxation().energy(d.x);
   state.position = d.x;
   state.velocity.assign(d.x.size(), Vector3d::Zero());
   Certificate certificate = certify(model, state, bodies);
@@ -221,7 +264,7 @@ DrapeReport drape(const model::Model& model, const std::vector<body::Body>& bodi
   report.body_intersections = certificate.body_intersections;
   report.inside_body = certificate.inside_body;
   if (!certificate.clean() && report.status == DrapeStatus::at_rest) report.status = DrapeStatus::tangled;
-  explain(d, walls);
+  explain(d, all);
   return report;
 }
 

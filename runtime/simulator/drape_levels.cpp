@@ -15,6 +15,7 @@ DrapeReport drape_levels(const std::vector<model::Model>& coarse, const model::M
     DrapeSettings rough = settings;
     // A coarse garment only has to find the folds; the fine one comes to rest.
     if (settings.settle != Settle::preview) rough.settle = Settle::equilibrium;
+    rough.certify = false;
     DrapeReport report = drape(level, bodies, on_level, rough);
     steps += report.steps;
     if (report.status == DrapeStatus::interrupted) {

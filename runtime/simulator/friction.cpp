@@ -1,5 +1,6 @@
 #include "runtime/simulator/friction.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace garment::simulator {
@@ -74,10 +75,10 @@ void BodyFriction::add_force(const std::vector<Vector3d>& x, std::vector<Vector3
 void BodyFriction::absorb(std::vector<Vector3d>& force) const {
   for (std::uint32_t i : active_) {
     const Touch& t = touch_[i];
-    Vector3d normal = force[i].dot(t.normal) * t.normal;
-    Vector3d tangential = force[i] - normal;
+    double pull = force[i].dot(t.normal);
+    Vector3d tangential = force[i] - pull * t.normal;
     double size = tangential.norm();
-    force[i] = normal + tangential * (size > t.limit ? 1 - t.limit / size : 0.0);
+    force[i] = std::max(pull, 0.0) * t.normal + tangential * (size > t.limit ? 1 - t.limit / size : 0.0);
   }
 }
 

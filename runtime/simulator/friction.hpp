@@ -24,8 +24,8 @@ class BodyFriction {
   double energy(const std::vector<Eigen::Vector3d>& x) const;
   /// Adds the friction force at x, and the stiffness to the matrix when one is given.
   void add_force(const std::vector<Eigen::Vector3d>& x, std::vector<Eigen::Vector3d>& force, BlockMatrix* matrix) const;
-  /// Takes from `force` what friction can bear: at every touching particle the tangential part shrinks by up to mu N.
-  /// What is left is what moves the cloth, whatever path it came by.
+  /// Takes from `force` (all forces but those of bodies) what touching bodies can bear: the part that presses on the body,
+  /// and of the tangential part up to mu N. What is left is what moves the cloth, whatever path it came by.
   void absorb(std::vector<Eigen::Vector3d>& force) const;
   /// Lets the anchors of slipping particles follow (after an accepted step).
   void follow(const std::vector<Eigen::Vector3d>& x);

@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 using Vectors = std::vector<Vector3d>;
 
 constexpr double kLargestTimeStep = 2.0;   // s
-constexpr double kSmallestTimeStep = 1e-3; // s
+constexpr double kSmallestTimeStep = 1e-4; // s
 constexpr double kLinearTolerance = 0.1;  // folds move on: solving the linear system better does not save steps
 constexpr int kLinearIterations = 200;
 constexpr double kHoldSpeed = 5e-3;        // m per step towards a hold's place
@@ -51,11 +51,11 @@ Relaxation::Relaxation(const model::Model& model, const std::vector<body::Body>&
       holds_(model),
       matrix_(elastic_.make_matrix()),
       linear_(matrix_.pattern(), holds_),
-      mesh_(model, settings.bodies_are_walls ? bodies : no_bodies(),
-            ContactOptions{settings.self_collision, settings.self_offset, settings.body_offset}),
-      friction_(model.n_particles(), settings.contact_stiffness),
+      mesh_(model, no_bodies(), ContactOptions{settings.self_collision, settings.self_offset, 0}),
+      friction_(model.n_particles(), settings.body_stiffness * mean_edge(model) * mean_edge(model)),
       extra_offset_(model.n_particles(), 0) {
   spacing_ = mean_edge(model);
+  push_stiffness_ = settings.body_stiffness * spacing_ * spacing_;
   recent_motion_ = spacing_ / 2;
   double sum = 0;
   for (double m : model.mass) sum += m * m * model.gravity.squaredNorm();
@@ -74,14 +74,13 @@ void Relaxation::refresh_candidates(const Vectors& x) {
   candidates_.rebuild(mesh_, x, mesh_.largest_contact_distance + room);
   have_candidates_ = true;
   if (!tangle_.empty()) {
-    tangle_ = find_tangle(mesh_, settings_.bodies_are_walls ? bodies_ : no_bodies(), x);
+    tangle_ = find_tangle(mesh_, no_bodies(), x);
     candidates_.exempt(mesh_, tangle_);
   }
 }
 
 void Relaxation::find_pushes(const Vectors& x) {
   pushes_.clear();
-  if (settings_.bodies_are_walls) return;
   for (const body::Body& body : bodies_) {
     std::vector<Push> found(x.size());
     parallel_for(x.size(), 256, [&](std::size_t begin, std::size_t end) {
@@ -93,7 +92,7 @@ void Relaxation::find_pushes(const Vectors& x) {
         Vector3d normal = hit->normal;
         double gap = (x[i] - hit->point).norm();
         if (gap > 1e-6) normal = (x[i] - hit->point) / (hit->distance < 0 ? -gap : gap);
-        found[i] = {i, normal, normal.dot(hit->point), offset};
+        found[i] = {i, normal, normal.dot(hit->point), offset, std::sqrt(body.friction * model_.friction[i])};
       }
     });
     for (const Push& p : found)
@@ -119,7 +118,7 @@ double Relaxation::push_energy(const Vectors& x) const {
   double sum = 0;
   for (const Push& p : pushes_) {
     double depth = p.offset - (p.normal.dot(x[p.particle]) - p.plane);
-    if (depth > 0) sum += settings_.contact_stiffness / 2 * depth * depth;
+    if (depth > 0) sum += push_stiffness_ / 2 * depth * depth;
   }
   return sum;
 }
@@ -140,8 +139,8 @@ double Relaxation::total_energy(const Vectors& x, std::vector<Contact>& contacts
   return energy(x) + contact_energy_sum(contacts) + push_energy(x) + friction_.energy(x);
 }
 
-/// Contact forces at x (from contacts_), and with `with_stiffness` their second derivatives.
-void Relaxation::add_contacts(const Vectors& x, Vectors& force, bool with_stiffness) {
+/// Forces of cloth on cloth (from contacts_), and with `with_stiffness` their second derivatives.
+void Relaxation::add_contacts(Vectors& force, bool with_stiffness) {
   if (with_stiffness) stiffness_.clear();
   const Index n = mesh_.n_particles;
   for (const Contact& c : contacts_) {
@@ -160,23 +159,23 @@ void Relaxation::add_contacts(const Vectors& x, Vectors& force, bool with_stiffn
     }
     if (stiff) stiffness_.push_back(s);
   }
+}
+
+/// Forces and stiffness of bodies on cloth at x.
+void Relaxation::add_pushes(const Vectors& x) {
   for (const Push& p : pushes_) {
     double depth = p.offset - (p.normal.dot(x[p.particle]) - p.plane);
     if (depth <= 0) continue;
-    force[p.particle] += settings_.contact_stiffness * depth * p.normal;
-    if (with_stiffness)
-      matrix_.add_diagonal(p.particle, Matrix3d(settings_.contact_stiffness * p.normal * p.normal.transpose()));
+    force_[p.particle] += push_stiffness_ * depth * p.normal;
+    matrix_.add_diagonal(p.particle, Matrix3d(push_stiffness_ * p.normal * p.normal.transpose()));
   }
 }
 
 void Relaxation::collect_normal_forces(const Vectors& x) {
   friction_.begin_step();
-  for (const Contact& c : contacts_) {
-    if (!c.body || c.multiplicity < 0) continue;
-    ContactEnergy e = contact_energy(c.distance, c.contact_distance, settings_.contact_stiffness);
-    for (int k = 0; k < 4; ++k)
-      if (c.p[k] >= 0 && c.p[k] < mesh_.n_particles && c.w[k] != 0)
-        friction_.add_normal_force(static_cast<std::size_t>(c.p[k]), -e.first * c.w[k] * c.normal, c.friction);
+  for (const Push& p : pushes_) {
+    double depth = p.offset - (p.normal.dot(x[p.particle]) - p.plane);
+    if (depth > 0) friction_.add_normal_force(p.particle, push_stiffness_ * depth * p.normal, p.friction);
   }
   friction_.freeze(x);
 }
@@ -200,7 +199,12 @@ double Relaxation::residual(const Vectors& x, Vectors& force) {
   elastic_.energy_and_force(x, force);
   add_external_forces(x, force);
   collect_normal_forces(x);
-  add_contacts(x, force, false);
+  add_contacts(force, false);
+  return residual_of(force);
+}
+
+/// Takes from `force` (all but the bodies') what holds and bodies carry; RMS of the rest over RMS weight.
+double Relaxation::residual_of(Vectors& force) const {
   holds_.filter(force);  // first, or friction would spend its strength on what the holds carry
   friction_.absorb(force);
   holds_.filter(force);
@@ -231,10 +235,12 @@ StepReport Relaxation::step(Vectors& x) {
   double elastic = elastic_.energy_force_hessian(x, force_, matrix_);
   add_external_forces(x, force_);
   collect_normal_forces(x);
-  add_contacts(x, force_, true);
+  add_contacts(force_, true);
+  net_ = force_;
+  report.residual = residual_of(net_);
+  add_pushes(x);
   friction_.add_force(x, force_, &matrix_);
   holds_.filter(force_);
-  report.residual = rms_over_weight(force_);
   report.energy = elastic + gravity_energy(x);
   double before = report.energy + contact_energy_sum(contacts_) + push_energy(x) + friction_.energy(x);
 
@@ -248,7 +254,7 @@ StepReport Relaxation::step(Vectors& x) {
   for (std::size_t i = 0; i < x.size(); ++i) predicted += force_[i].dot(dx_[i]);
   bool driven = move_held(x, dx_);
   if (!tangle_.empty()) {
-    untangle_displacements(mesh_, settings_.bodies_are_walls ? bodies_ : no_bodies(), x, tangle_, untangle_);
+    untangle_displacements(mesh_, no_bodies(), x, tangle_, untangle_);
     for (std::size_t i = 0; i < x.size(); ++i) dx_[i] += holds_.filtered(i, untangle_[i]);
     driven = true;
   }

@@ -1,6 +1,7 @@
 #pragma once
 // One drape under way: inexact implicit steps towards the minimum of elastic, gravity and contact energy, none of which
-// starts an intersection (design "physics", sections 3.2 and 3.4).
+// starts an intersection of cloth with cloth (design "physics", sections 3.2 and 3.4). Bodies push particles out along the
+// normals of their surface, so a garment may start inside one; the drape looks at the exact certificate before it ends.
 #include <Eigen/Core>
 #include <vector>
 
@@ -18,12 +19,10 @@ namespace garment::simulator {
 
 struct RelaxationSettings {
   bool self_collision = true;
-  /// true: body surfaces are walls that nothing passes; the start must be free of cloth inside a body.
-  /// false: bodies only push particles out along their surface normals (to get dressed).
-  bool bodies_are_walls = true;
   double body_offset = 1.5e-3;      ///< m, distance at which a body begins to repel cloth
   double self_offset = 0.6e-3;      ///< m, least contact distance of cloth with cloth
-  double contact_stiffness = 100;   ///< N/m
+  double contact_stiffness = 200;   ///< N/m, cloth against cloth
+  double body_stiffness = 1e7;      ///< N/m per m^2 of cloth, body against cloth
   double gravity_scale = 1;
 };
 
@@ -48,17 +47,18 @@ class Relaxation {
   /// One step from `x`; changes it. `x` is only ever moved along paths that start no intersection.
   StepReport step(std::vector<Eigen::Vector3d>& x);
 
-  /// Net force on every particle at x, N: contacts included, what friction can bear and what holds carry taken out.
+  /// Net force on every particle at x, N: what bodies can bear by pressure and friction, and what holds carry, taken out.
   /// Returns the residual: RMS net force over RMS weight.
   double residual(const std::vector<Eigen::Vector3d>& x, std::vector<Eigen::Vector3d>& force);
 
   /// Elastic and gravity energy at x, J.
   double energy(const std::vector<Eigen::Vector3d>& x) const;
 
+  double body_offset() const { return settings_.body_offset; }
   void set_gravity_scale(double scale) { settings_.gravity_scale = scale; }
   void set_tensile_scale(double scale) { elastic_.set_tensile_scale(scale); }
   void set_time_step(double seconds) { time_step_ = seconds; }
-  /// Particles that are pushed farther out than `body_offset` while bodies are no walls, m [n_particles].
+  /// By how much more than `body_offset` bodies keep each particle away, m [n_particles].
   std::vector<double>& extra_offset() { return extra_offset_; }
   const ContactMesh& mesh() const { return mesh_; }
   /// Exempts what is tangled now from contacts and walls, and remembers to take it apart with every step.
@@ -66,11 +66,12 @@ class Relaxation {
   const Tangle& tangle() const { return tangle_; }
 
  private:
-  struct Push {  // a particle near a body that is no wall
+  struct Push {  // a particle near a body
     std::size_t particle;
     Eigen::Vector3d normal;
     double plane;   // signed distance of x is normal . x - plane
     double offset;
+    double friction;
   };
   void refresh_candidates(const std::vector<Eigen::Vector3d>& x);
   void find_pushes(const std::vector<Eigen::Vector3d>& x);
@@ -81,7 +82,9 @@ class Relaxation {
   double total_energy(const std::vector<Eigen::Vector3d>& x, std::vector<Contact>& contacts) const;
   void add_external_forces(const std::vector<Eigen::Vector3d>& x, std::vector<Eigen::Vector3d>& force);
   void collect_normal_forces(const std::vector<Eigen::Vector3d>& x);
-  void add_contacts(const std::vector<Eigen::Vector3d>& x, std::vector<Eigen::Vector3d>& force, bool with_stiffness);
+  void add_contacts(std::vector<Eigen::Vector3d>& force, bool with_stiffness);
+  void add_pushes(const std::vector<Eigen::Vector3d>& x);
+  double residual_of(std::vector<Eigen::Vector3d>& force) const;
   bool move_held(const std::vector<Eigen::Vector3d>& x, std::vector<Eigen::Vector3d>& dx) const;
   double rms_over_weight(const std::vector<Eigen::Vector3d>& force) const;
 
@@ -98,6 +101,7 @@ class Relaxation {
   Tangle tangle_;
   bool have_candidates_ = false;
   double spacing_ = 0.01;             // mean edge length, m
+  double push_stiffness_ = 1000;      // N/m
   double recent_motion_ = 0.005;      // m, how far particles move in a step these days
   double time_step_ = 1.0 / 60;
   double rms_weight_ = 0;
@@ -105,7 +109,7 @@ class Relaxation {
   std::vector<Push> pushes_;
   std::vector<Contact> contacts_, trial_contacts_;
   std::vector<ContactStiffness> stiffness_;
-  std::vector<Eigen::Vector3d> force_, dx_, trial_, untangle_;
+  std::vector<Eigen::Vector3d> force_, net_, dx_, trial_, untangle_;
 };
 
 }  // namespace garment::simulator
