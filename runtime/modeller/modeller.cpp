@@ -54,6 +54,22 @@ bool check_inputs(const design::Garment& garment, const ModelOptions& options, F
   return findings.size() == before;
 }
 
+/// Half the mean width of an outline, seen as a strip: its area over its length.
+double half_width(const design::Panel& panel) {
+  double area = 0, perimeter = 0;
+  for (const design::Edge& edge : panel.edges) {
+    area += edge.curve.area_term();
+    perimeter += edge.curve.length();
+  }
+  return perimeter > 0 ? std::abs(area) / perimeter : 0;
+}
+
+double spacing_of(const design::Panel& panel, const ModelOptions& options) {
+  double stated = options.resolution > 0 ? options.resolution : panel.resolution;
+  return options.coarsen > 1 ? std::max(stated, std::min(stated * options.coarsen, half_width(panel)))
+                             : stated;
+}
+
 /// Refuses grids that would not fit, before they are made.
 bool check_size(const std::vector<BorderPanel>& panels, std::size_t most, Findings& findings) {
   double particles = 0;
@@ -93,7 +109,7 @@ std::vector<BorderPanel> cut_outlines(const design::Garment& garment, const Mode
   std::vector<BorderPanel> panels(garment.panels.size());
   for (std::size_t p = 0; p < panels.size(); ++p) {
     panels[p].panel = &garment.panels[p];
-    panels[p].h = options.resolution > 0 ? options.resolution : garment.panels[p].resolution;
+    panels[p].h = spacing_of(garment.panels[p], options);
     if (std::optional<Outline> outline = cut_outline(garment.panels[p], panels[p].h, findings))
       panels[p].outline = std::move(*outline);
   }

@@ -12,6 +12,9 @@ namespace garment::modeller {
 
 struct ModelOptions {
   double resolution = 0;  ///< grid spacing for every panel, m; 0: what each panel states
+  /// Factor on the grid spacings, for coarse grids of a garment: 2, 4. A panel too narrow for that keeps a
+  /// grid of two spacings across its mean width, or what it states if that is coarser still.
+  double coarsen = 1;
   std::size_t max_particles = 2'000'000;
 };
 

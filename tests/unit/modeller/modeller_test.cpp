@@ -266,3 +266,14 @@ TEST_CASE("the resolution of the options overrides that of the panels") {
   REQUIRE(r.model);
   CHECK(r.model->n_particles() == 36);
 }
+
+TEST_CASE("a coarse grid keeps narrow panels fine enough") {
+  design::Garment g = test::single(test::rectangle("strip", 0.4, 0.03, 0.01));
+  g.panels.push_back(test::rectangle("sheet", 0.4, 0.4, 0.01, {0, 0.1}));
+  modeller::ModelOptions coarse;
+  coarse.coarsen = 4;
+  modeller::ModelResult r = modeller::build_model(g, {}, coarse);
+  REQUIRE(r.model);
+  CHECK(r.model->panels[1].n_vertices == 11 * 11);
+  CHECK(r.model->panels[0].n_vertices > 3 * 20);
+}
