@@ -1,5 +1,7 @@
 #pragma once
 // A linear system of the drape for tests and benchmarks: a crumpled hanging sheet, one implicit step.
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -27,7 +29,7 @@ class Noise {
   std::uint64_t seed_;
 };
 
-/// (elastic Hessian + M / time_step^2) x = force, at positions that are waved and uneven.
+/// (elastic Hessian + M / time_step^2) x = force, at first at positions that are waved and uneven.
 struct LinearCase {
   LinearCase(model::Model m, double time_step, double unevenness = 0.3)
       : model(std::move(m)), holds(model), elastic(model), matrix(elastic.make_matrix()), x(model.start) {
@@ -37,12 +39,22 @@ struct LinearCase {
       p = 1.002 * p + Eigen::Vector3d(0, 0, 1.5 * h * std::sin(0.4 * p.x() / h) * std::cos(0.3 * p.y() / h));
       p += unevenness * h * Eigen::Vector3d(0.02 * noise(), 0.02 * noise(), noise());
     }
-    elastic.energy_force_hessian(x, force, matrix);
-    for (std::size_t i = 0; i < x.size(); ++i) {
-      force[i] += model.mass[i] * model.gravity;
-      matrix.add_diagonal(i, model.mass[i] / (time_step * time_step));
+    assemble(time_step);
+  }
+  /// Lets the sheet sag by implicit steps that grow from 1/60 s to 2 s, then sets the system up for
+  /// `time_step`: what the solver meets near rest.
+  void relax(int steps, double time_step) {
+    simulator::LinearSolver solver(matrix.pattern(), holds);
+    std::vector<Eigen::Vector3d> dx;
+    double step = 1.0 / 60;
+    const double furthest = 0.5 * model.spring_rest.front();
+    for (int k = 0; k < steps; ++k, step = std::min(2.0, 1.5 * step)) {
+      assemble(step);
+      solver.solve(matrix, {}, force, 0.05, 200, dx, &x);
+      for (std::size_t i = 0; i < x.size(); ++i)
+        x[i] += dx[i] * std::min(1.0, furthest / (dx[i].norm() + 1e-12));
     }
-    holds.filter(force);
+    assemble(time_step);
   }
   /// Adds a contact with its diagonal blocks.
   void add_contact(const simulator::ContactStiffness& c) {
@@ -53,6 +65,15 @@ struct LinearCase {
             static_cast<std::size_t>(c.particle[k]),
             Eigen::Matrix3d(
                 (c.stiffness * c.weight[k] * c.weight[k] * c.normal * c.normal.transpose()).cast<double>()));
+  }
+
+  void assemble(double time_step) {
+    elastic.energy_force_hessian(x, force, matrix);
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      force[i] += model.mass[i] * model.gravity;
+      matrix.add_diagonal(i, model.mass[i] / (time_step * time_step));
+    }
+    holds.filter(force);
   }
 
   model::Model model;
