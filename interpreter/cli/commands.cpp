@@ -1,0 +1,141 @@
+#include "interpreter/cli/commands.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "interpreter/cli/modelling.hpp"
+#include "interpreter/language/construct_table.hpp"
+#include "interpreter/language/unparse.hpp"
+#include "runtime/io/pattern_json.hpp"
+#include "runtime/model/dump.hpp"
+
+namespace garment::cli {
+namespace {
+
+constexpr std::uint64_t kMaxScriptBytes = 4u << 20;
+
+/// Reads a script into `sources`; prints why not.
+bool read_script(const std::string& file, Host& host, grammar::Sources& sources, grammar::SourceId& id, Terminal& terminal) {
+  HostResult<std::string> text = host.read_file(file, kMaxScriptBytes);
+  if (!text) {
+    show({plain_error("G0901", fmt::format("cannot read `{}`: {}", file, text.error.message), "check the path")}, sources,
+         terminal);
+    return false;
+  }
+  id = sources.add(file, std::move(*text.value));
+  return true;
+}
+
+std::string plural(std::size_t n, const char* word) { return fmt::format("{} {}{}", n, word, n == 1 ? "" : "s"); }
+
+}  // namespace
+
+ExitCode check(const ProjectOptions& options, Host& host, Terminal& terminal) {
+  Project project;
+  if (ExitCode code = load(project, options, host, terminal); code != kOk) return code;
+  if (!build_model(project, terminal)) return kDiagnostics;
+  const design::Garment& g = project.result.garment;
+  if (terminal.options().json)
+    terminal.result(nlohmann::ordered_json{{"ok", true}, {"panels", g.panels.size()}, {"seams", g.seams.size()}}.dump());
+  else
+    terminal.note(fmt::format("{}: ok, {}, {}", options.file, plural(g.panels.size(), "panel"), plural(g.seams.size(), "seam")));
+  return kOk;
+}
+
+ExitCode parse(const std::string& file, Host& host, Terminal& terminal) {
+  grammar::Sources sources;
+  grammar::SourceId id = 0;
+  if (!read_script(file, host, sources, id, terminal)) return kInputOutput;
+  grammar::ParseResult parsed = grammar::parse(sources, id, interpreter::vocabulary());
+  terminal.result(terminal.options().json ? grammar::to_json(parsed.script, sources) : grammar::to_outline(parsed.script));
+  if (!terminal.options().json) show(parsed.diagnostics, sources, terminal);
+  for (const grammar::Diagnostic& d : parsed.diagnostics)
+    if (d.severity == Severity::error) return kDiagnostics;
+  return kOk;
+}
+
+ExitCode show_model(const ProjectOptions& options, Host& host, Terminal& terminal) {
+  Project project;
+  if (ExitCode code = load(project, options, host, terminal); code != kOk) return code;
+  std::optional<model::Model> model = build_model(project, terminal);
+  if (!model) return kDiagnostics;
+  terminal.result(terminal.options().json ? model::dump_json(*model) : model::summary_text(*model));
+  return kOk;
+}
+
+ExitCode format(const FormatOptions& options, Host& host, Terminal& terminal) {
+  grammar::Sources sources;
+  grammar::SourceId id = 0;
+  if (!read_script(options.file, host, sources, id, terminal)) return kInputOutput;
+  grammar::FormatResult formatted = grammar::format(sources, id, interpreter::vocabulary());
+  show(formatted.diagnostics, sources, terminal);
+  if (!formatted.diagnostics.empty()) return kDiagnostics;
+  if (options.check) {
+    bool same = formatted.text == sources[id].text;
+    if (!same) terminal.note(fmt::format("{} is not laid out canonically; `garment fmt {}` does it", options.file, options.file));
+    return same ? kOk : kDiagnostics;
+  }
+  if (options.stdout_only) {
+    terminal.result(formatted.text);
+    return kOk;
+  }
+  if (formatted.text == sources[id].text) return kOk;
+  HostResult<bool> written = host.write_file(options.file, formatted.text);
+  if (!written) {
+    show({plain_error("G0902", fmt::format("cannot write `{}`: {}", options.file, written.error.message), "")}, sources, terminal);
+    return kInputOutput;
+  }
+  return kOk;
+}
+
+ExitCode import_pattern(const ImportOptions& options, Host& host, Terminal& terminal) {
+  grammar::Sources sources;
+  HostResult<std::string> text = host.read_file(options.file, 16u << 20);
+  if (!text) {
+    show({plain_error("G0901", fmt::format("cannot read `{}`: {}", options.file, text.error.message), "check the path")}, sources,
+         terminal);
+    return kInputOutput;
+  }
+  std::string out = options.out.empty() ? stem_of(options.file) + ".garment" : options.out;
+  if (!options.force && std::filesystem::exists(out)) {
+    show({plain_error("G0903", fmt::format("`{}` exists already", out), "choose another name with -o, or add --force")}, sources,
+         terminal);
+    return kInputOutput;
+  }
+  io::PatternOptions pattern_options;
+  pattern_options.title = stem_of(options.file);
+  io::PatternResult pattern = io::read_pattern(*text.value, pattern_options);
+  std::vector<grammar::Span> origins{grammar::Span{}};
+  show(interpreter::to_diagnostics(pattern.findings, origins), sources, terminal);
+  if (!pattern.garment) return kDiagnostics;
+  for (const std::string& note : pattern.notes) terminal.note("note: " + note);
+  interpreter::UnparseOptions unparse_options;
+  unparse_options.title = pattern_options.title;
+  if (!options.body.empty()) {
+    std::error_code error;
+    std::filesystem::path relative = std::filesystem::proximate(options.body, folder_of(out), error);
+    unparse_options.body = fmt::format("mesh(\"{}\")", error ? options.body : relative.string());
+  }
+  HostResult<bool> written = host.write_file(out, interpreter::unparse(*pattern.garment, unparse_options));
+  if (!written) {
+    show({plain_error("G0902", fmt::format("cannot write `{}`: {}", out, written.error.message), "")}, sources, terminal);
+    return kInputOutput;
+  }
+  terminal.note(fmt::format("{}: {}, {}", out, plural(pattern.garment->panels.size(), "panel"),
+                            plural(pattern.garment->seams.size(), "seam")));
+  return kOk;
+}
+
+ExitCode explain(const std::string& code, Terminal& terminal) {
+  const grammar::CodeInfo* info = grammar::find_code(code);
+  if (!info) {
+    terminal.error(fmt::format("`{}` is no diagnostic code; they look like G0312", code));
+    return kUsage;
+  }
+  terminal.result(fmt::format("{}: {}\n\n{}", info->code, info->title, info->explanation));
+  return kOk;
+}
+
+}  // namespace garment::cli

@@ -1,0 +1,29 @@
+#pragma once
+// The commands beside `run`. Each returns the exit code.
+#include <string>
+
+#include "interpreter/cli/project.hpp"
+
+namespace garment::cli {
+
+ExitCode check(const ProjectOptions& options, Host& host, Terminal& terminal);
+ExitCode parse(const std::string& file, Host& host, Terminal& terminal);
+ExitCode show_model(const ProjectOptions& options, Host& host, Terminal& terminal);
+
+struct FormatOptions {
+  std::string file;
+  bool check = false;   ///< only say whether the layout is canonical
+  bool stdout_only = false;
+};
+ExitCode format(const FormatOptions& options, Host& host, Terminal& terminal);
+
+struct ImportOptions {
+  std::string file, out, body;
+  bool force = false;   ///< overwrite an existing script
+};
+ExitCode import_pattern(const ImportOptions& options, Host& host, Terminal& terminal);
+
+/// Long text of a diagnostic code.
+ExitCode explain(const std::string& code, Terminal& terminal);
+
+}  // namespace garment::cli

@@ -1,0 +1,84 @@
+#include "interpreter/cli/drape_answers.hpp"
+
+namespace garment::cli {
+
+DrapeAnswers::DrapeAnswers(const design::Garment& garment, const std::vector<body::Body>& bodies,
+                           const model::Model& model, const model::State& state, const simulator::DrapeReport& report)
+    : garment_(garment),
+      model_(model),
+      state_(state),
+      report_(report),
+      strain_(results::measure_strain(model, state)),
+      measures_(results::measure(model, state, bodies)) {}
+
+const results::PanelStrain* DrapeAnswers::strain_of(const std::string& panel) const {
+  if (panel.empty()) return &strain_.all;
+  for (const results::PanelStrain& s : strain_.panels)
+    if (s.panel == panel) return &s;
+  return nullptr;
+}
+
+const results::PanelMeasure* DrapeAnswers::measure_of(const std::string& panel) const {
+  if (panel.empty()) return &measures_.all;
+  for (const results::PanelMeasure& m : measures_.panels)
+    if (m.panel == panel) return &m;
+  return nullptr;
+}
+
+std::optional<double> DrapeAnswers::strain(const std::string& panel) const {
+  const results::PanelStrain* s = strain_of(panel);
+  return s ? std::optional(s->any.largest) : std::nullopt;
+}
+
+std::optional<double> DrapeAnswers::shear(const std::string& panel) const {
+  const results::PanelStrain* s = strain_of(panel);
+  return s ? std::optional(s->largest_shear) : std::nullopt;
+}
+
+std::optional<double> DrapeAnswers::length(const std::vector<design::EdgePart>& parts) const {
+  double sum = 0;
+  for (const design::EdgePart& p : parts) {
+    const geometry::Curve& curve = garment_.panels[p.panel].edges[p.edge].curve;
+    auto length = results::draped_length(model_, state_, p.panel, curve, std::min(p.from, p.to), std::max(p.from, p.to));
+    if (!length) return std::nullopt;
+    sum += *length;
+  }
+  return sum;
+}
+
+std::optional<double> DrapeAnswers::area(const std::string& panel) const {
+  const results::PanelMeasure* m = measure_of(panel);
+  return m ? std::optional(m->draped_area) : std::nullopt;
+}
+
+std::optional<double> DrapeAnswers::mass(const std::string& panel) const {
+  const results::PanelMeasure* m = measure_of(panel);
+  return m ? std::optional(m->mass) : std::nullopt;
+}
+
+std::optional<double> DrapeAnswers::clearance(const std::string& panel) const {
+  const results::PanelMeasure* m = measure_of(panel);
+  if (!m || !m->clearance) return std::nullopt;
+  return m->clearance->least;
+}
+
+std::optional<double> DrapeAnswers::penetrations() const {
+  return static_cast<double>(report_.self_intersections + report_.body_intersections + report_.inside_body);
+}
+
+std::optional<Eigen::Vector3d> DrapeAnswers::position(int pin) const {
+  if (pin < 0 || pin >= static_cast<int>(garment_.pins.size())) return std::nullopt;
+  return position(garment_.pins[pin].panel, garment_.pins[pin].point);
+}
+
+std::optional<Eigen::Vector3d> DrapeAnswers::position(int panel, const design::Point2& point) const {
+  if (panel < 0 || panel >= static_cast<int>(model_.panels.size())) return std::nullopt;
+  const model::PanelRange& range = model_.panels[panel];
+  model::Index best = -1;
+  for (model::Index v = range.first_vertex; v < range.first_vertex + range.n_vertices; ++v)
+    if (best < 0 || (model_.vertex_uv[v] - point).squaredNorm() < (model_.vertex_uv[best] - point).squaredNorm()) best = v;
+  if (best < 0) return std::nullopt;
+  return state_.position[model_.vertex_particle[best]];
+}
+
+}  // namespace garment::cli

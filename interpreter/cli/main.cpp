@@ -1,0 +1,119 @@
+// The garment program: command line in, exit code out.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <thread>
+
+#include "interpreter/cli/commands.hpp"
+#include "interpreter/cli/golden.hpp"
+#include "interpreter/cli/run.hpp"
+#include "runtime/base/parallel.hpp"
+
+namespace {
+
+using namespace garment::cli;
+
+constexpr const char* kExamples = R"(examples:
+  garment run skirt.garment                     drape a script, results go to skirt/
+  garment run skirt.garment -p long=70cm -o out one parameter changed, results in out/
+  garment run tee.json --body woman.obj         drape a sewing-pattern specification
+  garment check skirt.garment                   what is wrong with a script
+  garment import tee.json -o tee.garment        a readable script from a specification
+)";
+
+constexpr const char* kFooter = R"(exit codes: 0 ok, 1 diagnostics, 2 usage, 3 input or output, 4 the simulation failed, 5 an expect failed,
+130 interrupted)";
+
+struct Options {
+  TerminalOptions terminal;
+  int threads = 0;
+  RunOptions run;
+  ProjectOptions project;
+  FormatOptions format;
+  ImportOptions import_options;
+  GoldenOptions golden;
+  std::string parse_file, code;
+};
+
+void add_common(CLI::App* command, Options& o) {
+  command->add_flag("--json", o.terminal.json, "machine-readable output on standard output");
+  command->add_flag("-q,--quiet", o.terminal.quiet, "say nothing but errors");
+  command->add_option("--threads", o.threads, "threads to use (results do not depend on it)")->check(CLI::Range(1, 256));
+}
+
+void add_project(CLI::App* command, ProjectOptions& p) {
+  command->add_option("file", p.file, "script (.garment) or sewing-pattern specification (.json)")->required();
+  command->add_option("-p,--param", p.params, "set a parameter: -p long=70cm")->allow_extra_args(false);
+  command->add_option("--body", p.body, "OBJ file of the body that a specification is worn by");
+  command->add_option("--library", p.stdlib_dir, "folder of the standard library");
+  command->add_flag("--any-path", p.any_path, "let the script read files outside its own folder");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options o;
+  o.run.project.stdlib_dir = o.project.stdlib_dir = GARMENT_STDLIB_DIR;
+  o.golden.stdlib_dir = GARMENT_STDLIB_DIR;
+  CLI::App app{std::string(kExamples) + "\nGarment describes garments and drapes them."};
+  app.name("garment");
+  app.set_version_flag("--version", std::string("garment ") + GARMENT_VERSION);
+  app.require_subcommand(1);
+  app.footer(kFooter);
+
+  auto* run_command = app.add_subcommand("run", "drape a script or a specification and write the results");
+  add_project(run_command, o.run.project);
+  add_common(run_command, o);
+  run_command->add_option("-o,--out", o.run.out, "folder for the results (default: the script's name, here)");
+  run_command->add_flag("!--no-pictures", o.run.pictures, "write no pictures");
+  run_command->add_flag("--ply", o.run.ply, "also write garment.ply, with strain");
+  run_command->add_option("--max-steps", o.run.max_steps, "give up after so many steps")->check(CLI::Range(1, 1000000));
+
+  auto* check_command = app.add_subcommand("check", "evaluate a script and say what is wrong with it");
+  add_project(check_command, o.project);
+  add_common(check_command, o);
+  auto* model_command = app.add_subcommand("model", "show the particle model: counts, mass, areas, lengths; --json all of it");
+  add_project(model_command, o.project);
+  add_common(model_command, o);
+  auto* parse_command = app.add_subcommand("parse", "show the syntax tree");
+  parse_command->add_option("file", o.parse_file, "script")->required();
+  add_common(parse_command, o);
+  auto* format_command = app.add_subcommand("fmt", "lay a script out canonically, in place");
+  format_command->add_option("file", o.format.file, "script")->required();
+  format_command->add_flag("--check", o.format.check, "only say whether it is; exit 1 if not");
+  format_command->add_flag("--stdout", o.format.stdout_only, "print instead of writing");
+  add_common(format_command, o);
+  auto* import_command = app.add_subcommand("import", "turn a sewing-pattern specification into a script");
+  import_command->add_option("file", o.import_options.file, "specification (.json)")->required();
+  import_command->add_option("-o,--out", o.import_options.out, "script to write");
+  import_command->add_option("--body", o.import_options.body, "OBJ file of the body that the script shall name");
+  import_command->add_flag("--force", o.import_options.force, "overwrite an existing script");
+  add_common(import_command, o);
+  auto* test_command = app.add_subcommand("test", "run the golden scripts of a folder");
+  test_command->add_option("folder", o.golden.folder, "folder with .garment files")->required();
+  test_command->add_flag("--update", o.golden.update, "write the goldens anew and show the difference");
+  add_common(test_command, o);
+  auto* explain_command = app.add_subcommand("explain", "the long text of a diagnostic code");
+  explain_command->add_option("code", o.code, "for example G0312")->required();
+  add_common(explain_command, o);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? kOk : kUsage;
+  }
+
+  unsigned cores = std::thread::hardware_concurrency();
+  garment::set_thread_count(o.threads > 0 ? o.threads : static_cast<int>(cores ? cores : 1));
+  garment::install_interrupt_handler();
+  garment::Host& host = garment::system_host();
+  Terminal terminal(o.terminal);
+  if (*run_command) return run(o.run, host, terminal);
+  if (*check_command) return check(o.project, host, terminal);
+  if (*model_command) return show_model(o.project, host, terminal);
+  if (*parse_command) return parse(o.parse_file, host, terminal);
+  if (*format_command) return format(o.format, host, terminal);
+  if (*import_command) return import_pattern(o.import_options, host, terminal);
+  if (*test_command) return run_goldens(o.golden, host, terminal);
+  return explain(o.code, terminal);
+}

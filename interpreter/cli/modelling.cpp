@@ -1,0 +1,36 @@
+#include "interpreter/cli/modelling.hpp"
+
+#include <algorithm>
+
+#include "runtime/modeller/modeller.hpp"
+
+namespace garment::cli {
+namespace {
+
+constexpr std::size_t kWorthCoarse = 2000;  // particles from which a coarser grid saves time
+
+}  // namespace
+
+std::optional<model::Model> build_model(Project& project, Terminal& terminal) {
+  modeller::ModelResult built = modeller::build_model(project.result.garment, project.result.bodies);
+  show(interpreter::to_diagnostics(built.findings, project.result.origins), project.sources, terminal);
+  if (has_errors(built.findings)) return std::nullopt;
+  return std::move(built.model);
+}
+
+std::vector<model::Model> build_coarse_models(const Project& project, const model::Model& fine) {
+  std::vector<model::Model> models;
+  std::size_t particles = fine.n_particles();
+  design::Garment garment = project.result.garment;
+  while (particles > kWorthCoarse) {
+    for (design::Panel& p : garment.panels) p.resolution *= 2;
+    modeller::ModelResult built = modeller::build_model(garment, project.result.bodies);
+    if (!built.model || has_errors(built.findings)) break;
+    particles = built.model->n_particles();
+    models.push_back(std::move(*built.model));
+  }
+  std::reverse(models.begin(), models.end());
+  return models;
+}
+
+}  // namespace garment::cli

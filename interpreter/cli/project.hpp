@@ -1,0 +1,46 @@
+#pragma once
+// What a command works on: a script, or a sewing-pattern specification, evaluated to a declared garment.
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "grammar/diagnostic.hpp"
+#include "interpreter/cli/exit_codes.hpp"
+#include "interpreter/cli/terminal.hpp"
+#include "interpreter/language/interpret.hpp"
+#include "runtime/base/host.hpp"
+
+namespace garment::cli {
+
+struct ProjectOptions {
+  std::string file;
+  std::vector<std::string> params;     ///< "long=70cm"
+  std::string body;                    ///< OBJ file that a specification is worn by
+  std::string stdlib_dir;
+  bool any_path = false;               ///< files may lie outside the script's folder
+};
+
+struct Project {
+  std::string name;                    ///< the file's name without folder and ending
+  grammar::Sources sources;
+  interpreter::Interpretation result;
+  grammar::SourceId source = 0;
+  bool is_pattern = false;             ///< came from a specification
+};
+
+/// Reads and evaluates. Prints what is wrong; returns kOk when the garment can be used (warnings are no obstacle).
+ExitCode load(Project& project, const ProjectOptions& options, Host& host, Terminal& terminal);
+
+/// Prints diagnostics in the chosen form. With `--json` they go to standard output.
+void show(const grammar::Diagnostics& diagnostics, const grammar::Sources& sources, Terminal& terminal);
+
+/// A coded error that has no place in a script ("cannot read FILE").
+grammar::Diagnostic plain_error(std::string code, std::string message, std::string help);
+
+/// Path without folder and ending.
+std::string stem_of(const std::string& path);
+/// Folder of a path, "." when it has none.
+std::string folder_of(const std::string& path);
+bool ends_with(const std::string& text, std::string_view ending);
+
+}  // namespace garment::cli

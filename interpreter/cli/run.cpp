@@ -1,0 +1,173 @@
+#include "interpreter/cli/run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "interpreter/cli/drape_answers.hpp"
+#include "interpreter/cli/modelling.hpp"
+#include "interpreter/cli/outputs.hpp"
+#include "runtime/base/hash.hpp"
+#include "runtime/base/number.hpp"
+#include "runtime/results/report.hpp"
+#include "runtime/simulator/drape_levels.hpp"
+
+namespace garment::cli {
+namespace {
+
+/// Adds up the wall time of the phases of a run.
+class Stopwatch {
+ public:
+  Stopwatch(Host& host, std::vector<results::PhaseTime>& phases) : host_(host), phases_(phases), last_(host.seconds()) {}
+  double lap(const char* phase) {
+    double now = host_.seconds(), taken = now - last_;
+    phases_.push_back({phase, taken});
+    last_ = now;
+    return taken;
+  }
+
+ private:
+  Host& host_;
+  std::vector<results::PhaseTime>& phases_;
+  double last_;
+};
+
+void fill_sources(results::Report& report, const Project& project) {
+  for (std::size_t i = 0; i < project.sources.size(); ++i) {
+    const grammar::Source& s = project.sources[static_cast<grammar::SourceId>(i)];
+    std::string name = s.name.substr(s.name.find_last_of('/') + 1);
+    (i == project.source ? report.sources : report.library).push_back({name, sha256(s.text)});
+  }
+  for (const interpreter::Parameter& p : project.result.parameters) report.parameters.push_back({p.name, p.value, p.given});
+}
+
+ExitCode exit_code_of(simulator::DrapeStatus status) {
+  switch (status) {
+    case simulator::DrapeStatus::at_rest: return kOk;
+    case simulator::DrapeStatus::interrupted: return kInterrupted;
+    case simulator::DrapeStatus::not_settled:
+    case simulator::DrapeStatus::tangled:
+    case simulator::DrapeStatus::diverged: return kSimulationFailed;
+  }
+  return kSimulationFailed;
+}
+
+/// One run under way; each act of the script is one call.
+struct Run {
+  const RunOptions& options;
+  Host& host;
+  Terminal& terminal;
+  Project& project;
+  const model::Model& model;
+  OutputFolder& out;
+  results::Report& report;
+  model::State state;
+  bool draped = false;
+  ExitCode code = kOk;
+
+  void drape(const interpreter::DrapeAct& act, grammar::Span span) {
+    if (!act.until_rest) {
+      grammar::Diagnostic d = plain_error("G0804", "`drape for` a time is not supported yet", "write `drape until rest`");
+      d.labels.push_back({span, ""});
+      show({d}, project.sources, terminal);
+      code = kDiagnostics;
+      return;
+    }
+    simulator::DrapeSettings settings;
+    settings.settle = act.settle;
+    if (options.max_steps > 0) settings.max_steps = options.max_steps;
+    settings.progress = [this](const simulator::DrapeProgress& p) { terminal.progress(p, host); };
+    settings.interrupted = [this] { return host.interrupted(); };
+    std::vector<model::Model> coarse;
+    if (!draped) coarse = build_coarse_models(project, model);
+    report.settle = act.settle;
+    report.drape = simulator::drape_levels(coarse, model, project.result.bodies, state, settings);
+    terminal.end_progress();
+    draped = true;
+    show(interpreter::to_diagnostics(report.drape.findings, project.result.origins), project.sources, terminal);
+    code = std::max(code, exit_code_of(report.drape.status));
+  }
+
+  void expect(const interpreter::Act& act) {
+    DrapeAnswers answers(project.result.garment, project.result.bodies, model, state, report.drape);
+    interpreter::ExpectResult r = interpreter::evaluate_expect(project.result, act, answers);
+    show(r.diagnostics, project.sources, terminal);
+    report.expects.push_back({r.text, r.value, r.found, r.expected, r.passed});
+    if (!r.passed && code == kOk) code = kExpectFailed;
+  }
+
+  void measure(const interpreter::Act& act) {
+    DrapeAnswers answers(project.result.garment, project.result.bodies, model, state, report.drape);
+    interpreter::MeasureResult r = interpreter::evaluate_measure(project.result, act, answers);
+    show(r.diagnostics, project.sources, terminal);
+    report.expects.push_back({r.measure.name, r.measure.value, r.measure.text, "", true});
+  }
+};
+
+void perform(Run& run) {
+  for (const interpreter::Act& act : run.project.result.acts) {
+    if (run.code == kInterrupted || run.code == kSimulationFailed || run.code == kDiagnostics) break;
+    if (auto* drape = std::get_if<interpreter::DrapeAct>(&act.act)) run.drape(*drape, act.span);
+    if (std::holds_alternative<interpreter::ExpectAct>(act.act)) run.expect(act);
+    if (std::holds_alternative<interpreter::MeasureAct>(act.act)) run.measure(act);
+    if (auto* save = std::get_if<interpreter::SaveAct>(&act.act))
+      for (const std::string& name : save->paths)
+        if (!save_file(name, run.project, run.model, run.state, run.out, run.terminal)) run.code = kInputOutput;
+  }
+}
+
+void summarise(const results::Report& report, const OutputFolder& out, bool draped, Terminal& terminal) {
+  double drape_seconds = 0;
+  for (const results::PhaseTime& p : report.phases)
+    if (p.phase == "drape") drape_seconds = p.seconds;
+  if (draped)
+    terminal.note(fmt::format("{}: {} particles, {} steps in {}, residual {} of the weight, largest strain {}%, {}",
+                              results::status_name(report.drape.status), say_count(report.particles), report.drape.steps,
+                              say_seconds(drape_seconds), format_number(report.drape.residual, 2),
+                              format_number(100 * report.strain.all.any.largest, 2),
+                              report.drape.self_intersections + report.drape.body_intersections + report.drape.inside_body == 0
+                                  ? "nothing intersects"
+                                  : fmt::format("{} intersections", report.drape.self_intersections +
+                                                                        report.drape.body_intersections +
+                                                                        report.drape.inside_body)));
+  for (const results::ExpectOutcome& e : report.expects)
+    if (!e.expected.empty())
+      terminal.note(fmt::format("{} {}: found {}", e.passed ? "ok    " : "FAILED", e.text, e.shown));
+  terminal.note(fmt::format("results in {}/", out.folder()));
+}
+
+}  // namespace
+
+ExitCode run(const RunOptions& options, Host& host, Terminal& terminal) {
+  results::Report report;
+  Stopwatch watch(host, report.phases);
+  Project project;
+  if (ExitCode code = load(project, options.project, host, terminal); code != kOk) return code;
+  watch.lap("evaluate");
+  std::optional<model::Model> model = build_model(project, terminal);
+  if (!model) return kDiagnostics;
+  watch.lap("model");
+
+  OutputFolder out(options.out.empty() ? project.name : options.out, host, terminal);
+  Run under_way{options, host, terminal, project, *model, out, report, {}, false, kOk};
+  under_way.state.position = model->start;
+  under_way.state.velocity.assign(model->n_particles(), Eigen::Vector3d::Zero());
+  perform(under_way);
+  watch.lap("drape");
+
+  write_results({out.folder(), options.pictures, options.ply}, project, *model, under_way.state, out);
+  watch.lap("write");
+  report.title = project.result.garment.title;
+  report.script = project.name;
+  fill_sources(report, project);
+  results::fill_results(report, *model, under_way.state, project.result.bodies);
+  report.outputs = out.files();
+  report.peak_memory = host.peak_memory();
+  out.write("report.json", results::report_json(report));
+  if (terminal.options().json) terminal.result(results::report_json(report));
+  summarise(report, out, under_way.draped, terminal);
+  if (out.failed()) return kInputOutput;
+  return under_way.code;
+}
+
+}  // namespace garment::cli

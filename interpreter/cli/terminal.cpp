@@ -1,0 +1,82 @@
+#include "interpreter/cli/terminal.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "runtime/base/number.hpp"
+
+namespace garment::cli {
+namespace {
+
+constexpr double kLiveInterval = 0.1, kPlainInterval = 5;  // s between two progress lines
+
+}  // namespace
+
+Terminal::Terminal(TerminalOptions options) : options_(options) {
+  bool terminal = isatty(STDERR_FILENO) != 0;
+  const char* kind = std::getenv("TERM");
+  live_ = terminal && (!kind || std::string_view(kind) != "dumb");
+  color_ = live_ && std::getenv("NO_COLOR") == nullptr;
+}
+
+void Terminal::result(std::string_view text) const {
+  std::fwrite(text.data(), 1, text.size(), stdout);
+  if (!text.empty() && text.back() != '\n') std::fputc('\n', stdout);
+}
+
+void Terminal::note(std::string_view line) {
+  if (options_.quiet) return;
+  end_progress();
+  fmt::print(stderr, "{}\n", line);
+}
+
+void Terminal::error(std::string_view text) {
+  end_progress();
+  fmt::print(stderr, "{}{}", text, !text.empty() && text.back() == '\n' ? "" : "\n");
+}
+
+std::string Terminal::time_left(const simulator::DrapeProgress& p, double now) {
+  // The residual falls about exponentially: what is left follows from what has been done.
+  if (begun_ < 0) begun_ = now, first_residual_ = p.residual;
+  if (p.residual > first_residual_) first_residual_ = p.residual;
+  double done = std::log(first_residual_ / p.residual), open = std::log(p.residual / p.target);
+  if (!(done > 0.2) || !(open > 0) || now - begun_ < 1) return "";
+  return ", about " + say_seconds((now - begun_) * open / done) + " left";
+}
+
+void Terminal::progress(const simulator::DrapeProgress& p, Host& host) {
+  if (options_.quiet) return;
+  double now = host.seconds();
+  std::string left = time_left(p, now);
+  if (now - last_ < (live_ ? kLiveInterval : kPlainInterval)) return;
+  last_ = now;
+  std::string line = fmt::format("{}: step {}, {} particles, residual {} of the weight (rest at {}){}", p.phase, p.step,
+                                 say_count(p.particles), format_number(p.residual, 2), format_number(p.target, 2), left);
+  if (live_)
+    fmt::print(stderr, "\r\x1b[K{}", line), std::fflush(stderr), line_open_ = true;
+  else
+    fmt::print(stderr, "{}\n", line);
+}
+
+void Terminal::end_progress() {
+  if (line_open_) fmt::print(stderr, "\r\x1b[K");
+  line_open_ = false;
+}
+
+std::string say_seconds(double seconds) {
+  if (seconds < 10) return format_number(std::round(seconds * 10) / 10) + " s";
+  if (seconds < 120) return format_number(std::round(seconds)) + " s";
+  return format_number(std::round(seconds / 60)) + " min";
+}
+
+std::string say_count(std::size_t n) {
+  std::string digits = std::to_string(n);
+  for (std::size_t at = digits.size(); at > 3; at -= 3) digits.insert(at - 3, ",");
+  return digits;
+}
+
+}  // namespace garment::cli
