@@ -116,15 +116,16 @@ TEST_CASE("several contacts on a particle add up, and mu is their mean by force"
   CHECK(f.touching().empty());
 }
 
-TEST_CASE("friction takes from a force what it can bear, along the surface only") {
+TEST_CASE("a body takes from a force what presses on it, and along its surface up to mu N") {
   const BodyFriction f = pressed();
   auto left = [&](const Vector3d& force) {
     Positions all{force};
     f.absorb(all);
     return all[0];
   };
-  CHECK(left({0.5 * kLimit, -3, 0}) == Vector3d(0, -3, 0));
-  CHECK((left({0, 5, 3 * kLimit}) - Vector3d(0, 5, 2 * kLimit)).norm() < 1e-12);
+  CHECK(left({0.5 * kLimit, -3, 0}) == Vector3d::Zero());
+  CHECK((left({0, -3, 3 * kLimit}) - Vector3d(0, 0, 2 * kLimit)).norm() < 1e-12);
+  CHECK((left({0, 5, 3 * kLimit}) - Vector3d(0, 5, 2 * kLimit)).norm() < 1e-12);  // a pull off the body stays
   CHECK(left(Vector3d::Zero()) == Vector3d::Zero());
 }
 
