@@ -219,6 +219,7 @@ MeasureValue measure_value(const std::string& name, const Value& value) {
   MeasureValue measure{name, show(value), std::nullopt, ""};
   const auto* q = value.as<Quantity>();
   if (q == nullptr) return measure;
+  measure.text = format_quantity(q->value, q->dimension, q->percent, 7);
   measure.value = q->value;
   static const std::pair<Dimension, const char*> units[] = {
       {kLength, "m"},          {kArea, "m^2"},

@@ -43,7 +43,9 @@ Value eval_string(Program& program, const Expr& expr, Scope& scope) {
     if (child.kind == ExprKind::text) {
       text += child.text;
     } else {
-      text += show(eval(program, child, scope));
+      const Value value = eval(program, child, scope);
+      const auto* plain = value.as<std::string>();
+      text += plain != nullptr ? *plain : show(value);
     }
     if (text.size() > kMaxText) fail(program, Message("G0326", "the text grows past 1 MB", expr.span));
   }

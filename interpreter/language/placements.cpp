@@ -174,7 +174,10 @@ void run_attach(Program& program, const Statement& statement, Scope& scope) {
 }
 
 void run_gravity(Program& program, const Statement& statement, Scope& scope) {
-  if (statement.operands.size() != 1)
+  if (statement.operands.size() > 1)
+    fail(program, Message("G0313", "`gravity` takes one value, here is more", statement.operands[1].span)
+                      .help("as in `gravity 9.81 m/s^2`"));
+  if (statement.operands.empty())
     fail(program, Message("G0312", "`gravity` takes an acceleration or `(x, y, z)`", statement.keyword.span));
   const Expr& expr = statement.operands[0];
   const Value value = eval(program, expr, scope);

@@ -163,32 +163,33 @@ void check_unsewn(Program& program) {
       }
       return open;
     };
+    auto is_whole = [](const NamedEdge& edge, double open) {
+      double length = 0;
+      for (const EdgePart& part : edge.parts) length += std::fabs(part.to - part.from);
+      return open > length - kUnsewn;
+    };
     auto warn = [&](const NamedEdge& edge, const std::string& half, double open) {
-      const double length = [&] {
-        double sum = 0;
-        for (const EdgePart& part : edge.parts) sum += std::fabs(part.to - part.from);
-        return sum;
-      }();
+      if (open <= kUnsewn) return;
       const std::string name = info.panel.name + '.' + (half.empty() ? "" : half + '.') + edge.name;
-      const bool whole = open > length - kUnsewn;
-      report(program, Message("G0505",
-                              (whole ? "edge `" : format_quantity(open, kLength) + " of edge `") + name +
-                                  "` is neither sewn nor attached",
-                              edge.span)
-                          .warning()
-                          .help("sew it, attach it, or mark it `free`"));
+      report(program,
+             Message("G0505",
+                     (is_whole(edge, open) ? "edge `" : format_quantity(open, kLength) + " of edge `") +
+                         name + "` is neither sewn nor attached",
+                     edge.span)
+                 .warning()
+                 .help("sew it, attach it, or mark it `free`"));
     };
     for (const NamedEdge& edge : info.edges) {
       if (edge.half == "right" || (edge.half.empty() && info.folded)) continue;
       const double open = open_length(edge);
       const NamedEdge* twin = edge.half.empty() ? nullptr : find_edge(info, "right", edge.name);
       const double other = twin == nullptr ? 0 : open_length(*twin);
-      if (open > kUnsewn && other > kUnsewn)
-        warn(edge, "", open);
-      else if (open > kUnsewn)
-        warn(edge, edge.half, open);
-      else if (other > kUnsewn)
-        warn(*twin, "right", other);
+      if (twin != nullptr && is_whole(edge, open) && is_whole(*twin, other)) {
+        warn(edge, "", open);  // both halves alike are said once
+        continue;
+      }
+      warn(edge, edge.half, open);
+      if (twin != nullptr) warn(*twin, "right", other);
     }
   }
 }
