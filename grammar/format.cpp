@@ -67,6 +67,8 @@ class Layout {
     bool is_trailing = token.kind == TokenKind::comment && token.lines_before == 0;
     bool must_break =
         !is_trailing && (before->opens_block || token.closes_block || before->kind == TokenKind::comment);
+    // A statement's own next lines must be deeper than the line on which it begins.
+    if (token.begins_statement && before->text == ";" && line_continues_ && braces_ == 0) must_break = true;
     int lines = std::min(token.lines_before, 2);
     if (before->opens_block || token.closes_block) lines = std::min(lines, 1);
     return std::max(lines, must_break ? 1 : 0);
@@ -86,6 +88,7 @@ class Layout {
     else if (leading && !leading->begins_statement && !leading->closes_block && leading->text != ";" &&
              leading->text != "else")
       depth += continuation_depth(*leading);
+    line_continues_ = depth > blocks_;
     out_.append(static_cast<std::size_t>(kIndent * depth), ' ');
   }
 
@@ -127,9 +130,10 @@ class Layout {
 
   const std::vector<LayoutToken>& tokens_;
   std::size_t i_ = 0;
-  int blocks_ = 0;    // open braces of blocks over several lines
-  int braces_ = 0;    // other open braces
-  int brackets_ = 0;  // open ( and [
+  int blocks_ = 0;               // open braces of blocks over several lines
+  int braces_ = 0;               // other open braces
+  int brackets_ = 0;             // open ( and [
+  bool line_continues_ = false;  // the line began inside a statement
   bool prefix_ = false, after_prefix_ = false, after_operand_ = false;
   std::string out_;
 };

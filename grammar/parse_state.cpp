@@ -42,8 +42,9 @@ std::size_t ParseState::clause_word(std::size_t at) const {
   std::string_view word = word_at(text_, at);
   if (word.empty() || !statements_.back().keyword->clauses.count(word)) return 0;
   char next = this->at(at + word.size());
-  bool touches = next == '.' || next == '(' || next == '[' || next == '{';
-  return touches ? 0 : word.size();
+  bool is_member = next == '.' && this->at(at + word.size() + 1) != '.';
+  bool is_hole = next == '{' && word != "with";  // with{ is a record, never a name
+  return is_member || is_hole || next == '(' || next == '[' ? 0 : word.size();
 }
 
 std::size_t ParseState::clause_sign(std::size_t at) const {

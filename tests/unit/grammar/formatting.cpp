@@ -97,6 +97,7 @@ TEST_CASE("statements that share a line stay statements of their own") {
         "panel p of s {\n  notch n on a\n  at = 5\n}\n");
   checked("panel p of s { grain +y; notch n on a\n   at 3 cm\n }");
   checked("use a; seam s: b\n    to c");
+  CHECK(checked("seam s: a or\nb; param y = 1\n   in c") == "seam s: a or\n  b;\nparam y = 1\n  in c\n");
 }
 
 TEST_CASE("line ends become LF, a byte order mark goes") {
