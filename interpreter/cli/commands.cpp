@@ -106,6 +106,7 @@ ExitCode import_pattern(const ImportOptions& options, Host& host, Terminal& term
   }
   io::PatternOptions pattern_options;
   pattern_options.title = stem_of(options.file);
+  pattern_options.fabric = io::import_fabric();
   io::PatternResult pattern = io::read_pattern(*text.value, pattern_options);
   std::vector<grammar::Span> origins{grammar::Span{}};
   show(interpreter::to_diagnostics(pattern.findings, origins), sources, terminal);

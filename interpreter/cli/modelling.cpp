@@ -21,11 +21,11 @@ std::optional<model::Model> build_model(Project& project, Terminal& terminal) {
 std::vector<model::Model> build_coarse_models(const Project& project, const model::Model& fine) {
   std::vector<model::Model> models;
   std::size_t particles = fine.n_particles();
-  design::Garment garment = project.result.garment;
+  modeller::ModelOptions options;
   while (particles > kWorthCoarse) {
-    for (design::Panel& p : garment.panels) p.resolution *= 2;
-    modeller::ModelResult built = modeller::build_model(garment, project.result.bodies);
-    if (!built.model || has_errors(built.findings)) break;
+    options.coarsen *= 2;
+    modeller::ModelResult built = modeller::build_model(project.result.garment, project.result.bodies, options);
+    if (!built.model || has_errors(built.findings) || built.model->n_particles() >= particles) break;
     particles = built.model->n_particles();
     models.push_back(std::move(*built.model));
   }

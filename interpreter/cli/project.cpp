@@ -52,6 +52,7 @@ ExitCode load_pattern(Project& project, const ProjectOptions& options, const std
   project.is_pattern = true;
   io::PatternOptions pattern_options;
   pattern_options.title = project.name;
+  pattern_options.fabric = io::import_fabric();
   io::PatternResult pattern = io::read_pattern(text, pattern_options);
   interpreter::Interpretation& result = project.result;
   result.origins = {grammar::Span{}};

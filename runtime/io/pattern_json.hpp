@@ -38,6 +38,10 @@ struct PatternOptions {
   PatternLimits limits;
 };
 
+/// The cloth that imported patterns are taken to be of, since the files name none: a single jersey, class-typical (not
+/// measured). Many of these patterns are smaller than their bodies and can only be worn in a cloth that stretches.
+design::Fabric import_fabric();
+
 /// A pattern as a declared garment. `garment` is empty when `findings` has errors. Its bodies are empty: the
 /// caller adds one by the name in `PatternOptions::body`. Coordinates stay in the file's own frame (metres).
 struct PatternResult {

@@ -126,8 +126,12 @@ void push_pierced(const ContactMesh& mesh, const Tangle& tangle, Relaxation& rel
 class Way {
  public:
   Way(Drape& d, const ContactMesh& all) : d_(d), all_(all), relaxation_(d.model, d.bodies, relaxation_settings(d)) {
-    relaxation_.set_tensile_scale(kSoftTensile);
     if (d.settings.self_collision) relaxation_.set_tangle(find_tangle(relaxation_.mesh(), no_bodies(), d.x));
+    if (d.settings.near_rest) {
+      enter(Stage::settling);
+      return;
+    }
+    relaxation_.set_tensile_scale(kSoftTensile);
     if (largest_spring_strain(d.model, d.x) > kClosedStrain) {
       stage_ = Stage::dressing;
       relaxation_.set_gravity_scale(0);

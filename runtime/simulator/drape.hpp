@@ -25,6 +25,7 @@ struct DrapeSettings {
   Settle settle = Settle::equilibrium;
   int max_steps = 4000;
   bool self_collision = true;
+  bool near_rest = false;     ///< the start comes from a coarser grid: no dressing, the true stiffness from the first step
   bool certify = true;        ///< at rest, go on until the exact test finds nothing; off for coarse grids
   std::function<void(const DrapeProgress&)> progress;  ///< called between steps; may be empty
   std::function<bool()> interrupted;                   ///< asked between steps; may be empty

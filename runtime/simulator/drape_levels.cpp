@@ -14,7 +14,8 @@ DrapeReport drape_levels(const std::vector<model::Model>& coarse, const model::M
     on_level.position = from ? prolong(*from, positions, level) : level.start;
     DrapeSettings rough = settings;
     // A coarse garment only has to find the folds; the fine one comes to rest.
-    if (settings.settle != Settle::preview) rough.settle = Settle::equilibrium;
+    rough.settle = Settle::preview;
+    rough.near_rest = from != nullptr;
     rough.certify = false;
     DrapeReport report = drape(level, bodies, on_level, rough);
     steps += report.steps;
@@ -29,7 +30,9 @@ DrapeReport drape_levels(const std::vector<model::Model>& coarse, const model::M
     positions = std::move(on_level.position);
   }
   if (from) state.position = prolong(*from, positions, model);
-  DrapeReport report = drape(model, bodies, state, settings);
+  DrapeSettings fine = settings;
+  fine.near_rest = settings.near_rest || from != nullptr;
+  DrapeReport report = drape(model, bodies, state, fine);
   report.steps += steps;
   return report;
 }

@@ -72,13 +72,16 @@ void BodyFriction::add_force(const std::vector<Vector3d>& x, std::vector<Vector3
   }
 }
 
-void BodyFriction::absorb(std::vector<Vector3d>& force) const {
+void BodyFriction::absorb(std::vector<Vector3d>& force, const Holds& holds) const {
   for (std::uint32_t i : active_) {
     const Touch& t = touch_[i];
-    double pull = force[i].dot(t.normal);
-    Vector3d tangential = force[i] - pull * t.normal;
+    Vector3d normal = holds.filtered(i, t.normal);
+    if (normal.norm() < 1e-6) continue;
+    normal.normalize();
+    double pull = force[i].dot(normal);
+    Vector3d tangential = force[i] - pull * normal;
     double size = tangential.norm();
-    force[i] = std::max(pull, 0.0) * t.normal + tangential * (size > t.limit ? 1 - t.limit / size : 0.0);
+    force[i] = std::max(pull, 0.0) * normal + tangential * (size > t.limit ? 1 - t.limit / size : 0.0);
   }
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "runtime/simulator/block_matrix.hpp"
+#include "runtime/simulator/holds.hpp"
 
 namespace garment::simulator {
 
@@ -26,7 +27,8 @@ class BodyFriction {
   void add_force(const std::vector<Eigen::Vector3d>& x, std::vector<Eigen::Vector3d>& force, BlockMatrix* matrix) const;
   /// Takes from `force` (all forces but those of bodies) what touching bodies can bear: the part that presses on the body,
   /// and of the tangential part up to mu N. What is left is what moves the cloth, whatever path it came by.
-  void absorb(std::vector<Eigen::Vector3d>& force) const;
+  /// Both act along what `holds` leave free: `force` must be filtered by them, and comes out filtered.
+  void absorb(std::vector<Eigen::Vector3d>& force, const Holds& holds) const;
   /// Lets the anchors of slipping particles follow (after an accepted step).
   void follow(const std::vector<Eigen::Vector3d>& x);
   /// Forgets all anchors.

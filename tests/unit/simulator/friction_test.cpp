@@ -3,6 +3,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <catch2/catch.hpp>
+#include <cmath>
 
 namespace {
 
@@ -118,15 +119,29 @@ TEST_CASE("several contacts on a particle add up, and mu is their mean by force"
 
 TEST_CASE("a body takes from a force what presses on it, and along its surface up to mu N") {
   const BodyFriction f = pressed();
-  auto left = [&](const Vector3d& force) {
-    Positions all{force};
-    f.absorb(all);
+  model::Model m;
+  m.mass = {1};
+  const simulator::Holds free(m);
+  m.hold_particle = {0};
+  m.hold_kind = {model::HoldKind::plane};
+  m.hold_point = {Vector3d::Zero()};
+  m.hold_normal = {Vector3d(1, 1, 0)};
+  const simulator::Holds sliding(m);
+  auto left = [&](const Vector3d& force, const simulator::Holds& holds) {
+    Positions all{holds.filtered(0, force)};
+    f.absorb(all, holds);
     return all[0];
   };
-  CHECK(left({0.5 * kLimit, -3, 0}) == Vector3d::Zero());
-  CHECK((left({0, -3, 3 * kLimit}) - Vector3d(0, 0, 2 * kLimit)).norm() < 1e-12);
-  CHECK((left({0, 5, 3 * kLimit}) - Vector3d(0, 5, 2 * kLimit)).norm() < 1e-12);  // a pull off the body stays
-  CHECK(left(Vector3d::Zero()) == Vector3d::Zero());
+  CHECK(left({0.5 * kLimit, -3, 0}, free) == Vector3d::Zero());
+  CHECK((left({0, -3, 3 * kLimit}, free) - Vector3d(0, 0, 2 * kLimit)).norm() < 1e-12);
+  CHECK((left({0, 5, 3 * kLimit}, free) - Vector3d(0, 5, 2 * kLimit)).norm() <
+        1e-12);  // a pull off the body stays
+  CHECK(left(Vector3d::Zero(), free) == Vector3d::Zero());
+  // Held in a plane that leans against the body: what is left stays in that plane.
+  const Vector3d slid = left({0, 5, 3 * kLimit}, sliding);
+  CHECK(std::abs(slid.dot(Vector3d(1, 1, 0))) < 1e-12);
+  CHECK((slid - Vector3d(-2.5, 2.5, 2 * kLimit)).norm() < 1e-12);
+  CHECK(left({0, -5, 0.5 * kLimit}, sliding).norm() < 1e-12);
 }
 
 TEST_CASE("a particle that lifts off anchors anew where it lands") {
