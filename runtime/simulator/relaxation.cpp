@@ -206,8 +206,7 @@ double Relaxation::residual(const Vectors& x, Vectors& force) {
 /// Takes from `force` (all but the bodies') what holds and bodies carry; RMS of the rest over RMS weight.
 double Relaxation::residual_of(Vectors& force) const {
   holds_.filter(force);  // first, or friction would spend its strength on what the holds carry
-  friction_.absorb(force);
-  holds_.filter(force);
+  friction_.absorb(force, holds_);
   return rms_over_weight(force);
 }
 
