@@ -5,19 +5,11 @@
 #include <vector>
 
 #include "runtime/simulator/block_matrix.hpp"
+#include "runtime/simulator/contact_stiffness.hpp"
 #include "runtime/simulator/holds.hpp"
 #include "runtime/simulator/preconditioner.hpp"
 
 namespace garment::simulator {
-
-/// The second derivative of one contact's energy: stiffness * g gT with g = (w_0 n, ..., w_3 n). Kept apart
-/// from the matrix because contacts come and go. Particles with id -1 do not move (they belong to a body).
-struct ContactStiffness {
-  model::Index particle[4];
-  float weight[4];
-  Eigen::Vector3f normal;
-  float stiffness = 0;  ///< N/m
-};
 
 struct LinearResult {
   int iterations = 0;

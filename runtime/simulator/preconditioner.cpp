@@ -56,7 +56,7 @@ void Preconditioner::group(const std::vector<Vector3d>* positions) {
 void Preconditioner::make_coarse_pattern() {
   const std::size_t n_groups = groups_.size();
   coarse_begin_.assign(1, 0);
-  coarse_places_.clear();
+  places_.clear();
   target_.assign(pattern_.n_blocks(), -1);
   std::vector<int> slot(n_groups, -1);  // of coarse column b in the row under work
   for (std::size_t a = 0; a < n_groups; ++a) {
@@ -73,15 +73,16 @@ void Preconditioner::make_coarse_pattern() {
     std::sort(columns.begin(), columns.end());
     columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
     for (int b : columns) {
-      slot[b] = static_cast<int>(coarse_places_.size());
-      coarse_places_.push_back({row, b});
+      slot[b] = static_cast<int>(places_.size());
+      places_.push_back({row, b});
     }
     for_lower([&](Index k, int b) { target_[k] = slot[b]; });
-    coarse_begin_.push_back(static_cast<int>(coarse_places_.size()));
+    coarse_begin_.push_back(static_cast<int>(places_.size()));
   }
-  coarse_.resize(coarse_places_.size());
+  touching_.clear();
+  coarse_.resize(places_.size());
   coarse_r_.resize(n_groups);
-  cholesky_.analyze(static_cast<int>(n_groups), coarse_places_);
+  cholesky_.analyze(static_cast<int>(n_groups), places_);
 }
 
 /// Computes the offsets d.
@@ -126,15 +127,80 @@ void Preconditioner::gather_coarse_row(const BlockMatrix& matrix, std::size_t a)
       add_projected(block, di, offset_[j], coarse_[target_[k]]);
     }
   }
-  // Rotations that do nothing (of one particle, about a straight line) leave zeros: the shift keeps them at
-  // rest.
-  const double trace = diagonal.trace();
-  diagonal.diagonal().array() += kShift * trace + 1e-30;
 }
 
-void Preconditioner::factor(const BlockMatrix& matrix, const std::vector<Vector3d>* positions) {
+/// The groups of the contact's particles, ascending, each once; returns how many.
+int Preconditioner::touched_groups(const ContactStiffness& c, std::array<int, 4>& groups) const {
+  int n = 0;
+  for (const Index i : c.particle)
+    if (i >= 0 && groups_.of[i] >= 0) groups[n++] = groups_.of[i];
+  std::sort(groups.begin(), groups.begin() + n);
+  return static_cast<int>(std::unique(groups.begin(), groups.begin() + n) - groups.begin());
+}
+
+/// Where the coarse block (row, column) stands, row >= column; -1 if it is not there.
+int Preconditioner::coarse_slot(int row, int column) const {
+  const std::array<int, 2> wanted{row, column};
+  auto at = std::lower_bound(places_.begin() + coarse_begin_[row], places_.begin() + coarse_begin_[row + 1],
+                             wanted);
+  if (at != places_.begin() + coarse_begin_[row + 1] && *at == wanted)
+    return static_cast<int>(at - places_.begin());
+  at = std::lower_bound(touching_.begin(), touching_.end(), wanted);
+  if (at == touching_.end() || *at != wanted) return -1;
+  return static_cast<int>(places_.size() + (at - touching_.begin()));
+}
+
+/// Makes room in the coarse matrix for the pairs of groups that these contacts connect.
+void Preconditioner::connect_touching(const std::vector<ContactStiffness>& contacts) {
+  std::vector<std::array<int, 2>> pairs;
+  for (const ContactStiffness& c : contacts) {
+    std::array<int, 4> groups{};
+    const int n = touched_groups(c, groups);
+    for (int k = 1; k < n; ++k)
+      for (int l = 0; l < k; ++l) {
+        const int slot = coarse_slot(groups[k], groups[l]);
+        if (slot < 0 || slot >= static_cast<int>(places_.size())) pairs.push_back({groups[k], groups[l]});
+      }
+  }
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  if (pairs == touching_) return;
+  touching_ = std::move(pairs);
+  std::vector<std::array<int, 2>> all = places_;
+  all.insert(all.end(), touching_.begin(), touching_.end());
+  coarse_.resize(all.size());
+  cholesky_.analyze(static_cast<int>(groups_.size()), all);
+}
+
+/// Adds Q^T (stiffness g gT) Q without what the diagonal blocks of the particles brought in already:
+///   u_a = sum over particles k in a of w_k q_k,  q_k = Q_k^T n,
+///   block (a, b) += stiffness u_a u_b^T,  block (a, a) -= stiffness w_k^2 q_k q_k^T.
+void Preconditioner::add_contact(const ContactStiffness& c) {
+  using Vector = BlockCholesky::Vector;
+  std::array<int, 4> groups{};
+  const int n = touched_groups(c, groups);
+  std::array<Vector, 4> u;
+  u.fill(Vector::Zero());
+  for (int k = 0; k < 4; ++k) {
+    const Index i = c.particle[k];
+    if (i < 0 || groups_.of[i] < 0) continue;
+    Vector q;
+    q.head<3>() = c.weight[k] * holds_.filtered(i, Vector3d(c.normal.cast<double>()));
+    q.tail<3>() = offset_[i].cast<double>().cross(Vector3d(q.head<3>()));
+    const auto a = std::find(groups.begin(), groups.begin() + n, groups_.of[i]) - groups.begin();
+    u[a] += q;
+    coarse_[coarse_begin_[groups[a] + 1] - 1].noalias() -= (c.stiffness * q) * q.transpose();
+  }
+  for (int k = 0; k < n; ++k)
+    for (int l = 0; l <= k; ++l)
+      coarse_[coarse_slot(groups[k], groups[l])].noalias() += (c.stiffness * u[k]) * u[l].transpose();
+}
+
+void Preconditioner::factor(const BlockMatrix& matrix, const std::vector<Vector3d>* positions,
+                            const std::vector<ContactStiffness>& contacts) {
   if (!grouped_ || (positions && !rounded_)) group(positions);
   place(positions);
+  connect_touching(contacts);
   parallel_for(matrix.n_rows(), kRowGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       inverse_diagonal_[i] = matrix.diagonal(i).inverse().cast<float>();
@@ -142,6 +208,15 @@ void Preconditioner::factor(const BlockMatrix& matrix, const std::vector<Vector3
   parallel_for(groups_.size(), kGroupGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t a = begin; a < end; ++a) gather_coarse_row(matrix, a);
   });
+  for (std::size_t k = 0; k < touching_.size(); ++k) coarse_[places_.size() + k].setZero();
+  for (const ContactStiffness& c : contacts) add_contact(c);
+  for (std::size_t a = 0; a < groups_.size(); ++a) {
+    // Rotations that do nothing (of one particle, about a straight line) leave zeros: the shift keeps them at
+    // rest.
+    BlockCholesky::Block& diagonal = coarse_[coarse_begin_[a + 1] - 1];
+    const double trace = diagonal.trace();
+    diagonal.diagonal().array() += kShift * trace + 1e-30;
+  }
   cholesky_.factor(coarse_);
 }
 

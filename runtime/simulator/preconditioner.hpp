@@ -8,6 +8,7 @@
 #include "runtime/simulator/aggregates.hpp"
 #include "runtime/simulator/block_cholesky.hpp"
 #include "runtime/simulator/block_matrix.hpp"
+#include "runtime/simulator/contact_stiffness.hpp"
 #include "runtime/simulator/holds.hpp"
 
 namespace garment::simulator {
@@ -24,9 +25,12 @@ class Preconditioner {
   /// `pattern` must stay that of the matrices given to `factor`; it and `holds` must outlive this.
   Preconditioner(const BlockPattern& pattern, const Holds& holds);
 
-  /// Prepares for one matrix, with the particles at `positions` [n] (nullptr: not known). The first call, and
-  /// the first one with positions, groups the particles.
-  void factor(const BlockMatrix& matrix, const std::vector<Eigen::Vector3d>* positions = nullptr);
+  /// Prepares for one matrix, with the particles at `positions` [n] (nullptr: not known). `contacts` are
+  /// those whose diagonal blocks the matrix holds already: without their off-diagonal part every layer of
+  /// cloth would seem to be nailed down where it touches another. The first call, and the first one with
+  /// positions, groups the particles.
+  void factor(const BlockMatrix& matrix, const std::vector<Eigen::Vector3d>* positions = nullptr,
+              const std::vector<ContactStiffness>& contacts = {});
 
   /// z = M^-1 r, both [n], filtered by the holds; r must be filtered. Returns r . z, accumulated in double.
   /// The same bits for any number of threads.
@@ -39,14 +43,20 @@ class Preconditioner {
   void make_coarse_pattern();
   void place(const std::vector<Eigen::Vector3d>* positions);
   void gather_coarse_row(const BlockMatrix& matrix, std::size_t a);
+  int touched_groups(const ContactStiffness& c, std::array<int, 4>& groups) const;
+  int coarse_slot(int row, int column) const;
+  void connect_touching(const std::vector<ContactStiffness>& contacts);
+  void add_contact(const ContactStiffness& c);
 
   const BlockPattern& pattern_;
   const Holds& holds_;
   Aggregates groups_;
   bool grouped_ = false, rounded_ = false;
-  std::vector<int> coarse_begin_;                  // [n_groups + 1]; the last block of a row is its diagonal
-  std::vector<std::array<int, 2>> coarse_places_;  // (row, column), column <= row, sorted
-  std::vector<int> target_;                        // for each block of the pattern: its coarse block, -1 none
+  std::vector<int> coarse_begin_;  // [n_groups + 1]; the last block of a row is its diagonal
+  std::vector<std::array<int, 2>>
+      places_;  // (row, column), column <= row, sorted: where the matrix has blocks
+  std::vector<std::array<int, 2>> touching_;  // the same for further pairs of groups that contacts connect
+  std::vector<int> target_;                   // for each block of the pattern: its coarse block, -1 none
   std::vector<BlockCholesky::Block> coarse_;
   BlockCholesky cholesky_;
   std::vector<BlockCholesky::Vector> coarse_r_;

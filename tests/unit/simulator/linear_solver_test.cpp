@@ -130,6 +130,36 @@ TEST_CASE("the number of iterations stays small as the grid grows finer") {
   }
 }
 
+TEST_CASE("layers that touch cost few more iterations") {
+  test::SheetSpec spec;
+  spec.nx = spec.ny = 40;
+  model::Model m = test::make_sheet(spec);
+  test::hold_upper_corners(m, spec);
+  LinearCase c(m, 2, 0.02);
+  c.relax(15, 2);
+  std::vector<Vector3d> x;
+  const int apart =
+      LinearSolver(c.matrix.pattern(), c.holds).solve(c.matrix, {}, c.force, 1e-1, 500, x, &c.x).iterations;
+  // The left third lies on the right one, particle on triangle.
+  for (int j = 0; j + 2 < spec.ny; ++j)
+    for (int i = 1; i < spec.nx / 3; ++i) {
+      const model::Index a = test::sheet_particle(spec, i, j),
+                         b = test::sheet_particle(spec, spec.nx - 1 - i, j);
+      c.add_contact({{a, b, b + 1, b + spec.nx}, {1, -0.4F, -0.35F, -0.25F}, Eigen::Vector3f::UnitZ(), 100});
+    }
+  LinearSolver solver(c.matrix.pattern(), c.holds);
+  const LinearResult touching = solver.solve(c.matrix, c.contacts, c.force, 1e-1, 500, x, &c.x);
+  CAPTURE(apart, touching.iterations, c.contacts.size());
+  CHECK(touching.reduction <= 1e-1);
+  CHECK(touching.iterations <= 60);  // nailed down where they touch: several hundred
+  // Contacts that come and go leave nothing behind.
+  const LinearResult again = solver.solve(c.matrix, {}, c.force, 1e-1, 500, x, &c.x);
+  std::vector<Vector3d> fresh;
+  LinearSolver(c.matrix.pattern(), c.holds).solve(c.matrix, {}, c.force, 1e-1, 500, fresh, &c.x);
+  CHECK(x == fresh);
+  CHECK(again.iterations > 0);
+}
+
 TEST_CASE("a second solve does not remember the first, and positions may come later") {
   LinearCase c(hanging(15, 15), 0.2);
   LinearSolver fresh(c.matrix.pattern(), c.holds), used(c.matrix.pattern(), c.holds);

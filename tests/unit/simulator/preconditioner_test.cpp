@@ -169,10 +169,12 @@ TEST_CASE("the preconditioner is symmetric positive definite on what is free") {
   m.hold_kind.push_back(model::HoldKind::plane);
   m.hold_point.push_back(m.start[5]);
   m.hold_normal.emplace_back(1, 2, -0.5);
-  const LinearCase c(m, 2);
+  LinearCase c(m, 2);
+  c.add_contact({{0, 60, 61, 52}, {1, -0.5F, -0.3F, -0.2F}, Vector3f::UnitZ(), 100});
+  c.add_contact({{5, 6, 20, -1}, {0.4F, 0.6F, -1, 0}, Vector3f(1, 1, 1).normalized(), 50});
   for (const bool with_positions : {false, true}) {
     Preconditioner p(c.matrix.pattern(), c.holds);
-    p.factor(c.matrix, with_positions ? &c.x : nullptr);
+    p.factor(c.matrix, with_positions ? &c.x : nullptr, c.contacts);
     MatrixXd z = dense(p, c.x.size());
     MatrixXd projector = MatrixXd::Zero(z.rows(), z.cols());
     for (std::size_t i = 0; i < c.x.size(); ++i)
