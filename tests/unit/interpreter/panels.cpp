@@ -170,6 +170,11 @@ TEST_CASE("the fold is straight and met squarely") {
                 "30 cm)\n    close cf\n",
                 "", "on fold cf"),
           "G0402");
+  refuses(panel("    edge hem to (20 cm, 0)\n    edge side to (20 cm, 50 cm)\n    edge over to (-5 cm, 40 "
+                "cm)\n    edge waist "
+                "to (0, 30 cm) tangents end +x\n    close cf\n",
+                "", "on fold cf"),
+          "G0406", "crosses the fold");
   refuses(panel(kHalf, "", "on fold «cb»"), "G0301", "did you mean `cf`?");
   refuses(panel(kHalf, "  notch «n» on cf at 5 cm\n", "on fold cf"), "G0414", "fold");
 }

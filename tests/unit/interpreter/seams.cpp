@@ -226,6 +226,9 @@ TEST_CASE("placements") {
   refuses(head + "place a on form.front with «tpo» at form.waist\n", "G0301", "did you mean `top`?");
   refuses(head + "place a on form.front «with top»\n", "G0312", "LEVEL");
   refuses(head + "place a on form.front offset «2 m»\n", "G0309", "50 cm");
+  refuses(head + "place a on form.front with «b.top» at form.waist\n", "G0610");
+  refuses(head + "body other = bodies.man(size: 50)\nplace a on form.front with top at «other.waist»\n",
+          "G0610");
   refuses(head + "place a on form.front\n«place a on form.back»\n", "G0612");
   refuses(head + "«place» a\n", "G0312");
   refuses(head + "place «form» on form.front\n", "G0306");
