@@ -54,6 +54,7 @@ Relaxation::Relaxation(const model::Model& model, const std::vector<body::Body>&
       mesh_(model, no_bodies(), ContactOptions{settings.self_collision, settings.self_offset, 0}),
       friction_(model.n_particles(), settings.body_stiffness * mean_edge(model) * mean_edge(model)),
       extra_offset_(model.n_particles(), 0) {
+  soundings_.assign(bodies.size(), std::vector<Sounding>(model.n_particles()));
   spacing_ = mean_edge(model);
   push_stiffness_ = settings.body_stiffness * spacing_ * spacing_;
   recent_motion_ = spacing_ / 2;
@@ -81,23 +82,35 @@ void Relaxation::refresh_candidates(const Vectors& x) {
 
 void Relaxation::find_pushes(const Vectors& x) {
   pushes_.clear();
-  for (const body::Body& body : bodies_) {
-    std::vector<Push> found(x.size());
-    parallel_for(x.size(), 256, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        double offset = settings_.body_offset + extra_offset_[i] + mesh_.half_thickness[i];
-        found[i].offset = 0;
-        auto hit = body.closest(x[i], kBodySearch);
-        if (!hit || hit->distance >= 2 * offset) continue;
-        Vector3d normal = hit->normal;
-        double gap = (x[i] - hit->point).norm();
-        if (gap > 1e-6) normal = (x[i] - hit->point) / (hit->distance < 0 ? -gap : gap);
-        found[i] = {i, normal, normal.dot(hit->point), offset, std::sqrt(body.friction * model_.friction[i])};
-      }
-    });
-    for (const Push& p : found)
-      if (p.offset > 0) pushes_.push_back(p);
-  }
+  for (std::size_t b = 0; b < bodies_.size(); ++b) find_pushes_of(b, x);
+}
+
+/// Distance falls by no more than the way moved, so a particle that was far away need not be asked again until it may
+/// have come near; one that was near is searched for only as far as it can have gone.
+void Relaxation::find_pushes_of(std::size_t b, const Vectors& x) {
+  const body::Body& body = bodies_[b];
+  std::vector<Sounding>& soundings = soundings_[b];
+  found_.resize(x.size());
+  parallel_for(x.size(), 256, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      double offset = settings_.body_offset + extra_offset_[i] + mesh_.half_thickness[i];
+      found_[i].offset = 0;
+      Sounding& last = soundings[i];
+      double moved = last.known ? (x[i] - last.at).norm() : 0;
+      if (last.known && last.distance - moved > 2 * offset) continue;
+      double reach = last.known ? std::min(kBodySearch, std::abs(last.distance) + moved + 1e-6) : kBodySearch;
+      auto hit = body.closest(x[i], reach);
+      if (!hit && reach < kBodySearch) hit = body.closest(x[i], kBodySearch);
+      last = {x[i], hit ? hit->distance : kBodySearch, true};
+      if (!hit || hit->distance >= 2 * offset) continue;
+      Vector3d normal = hit->normal;
+      double gap = (x[i] - hit->point).norm();
+      if (gap > 1e-6) normal = (x[i] - hit->point) / (hit->distance < 0 ? -gap : gap);
+      found_[i] = {i, normal, normal.dot(hit->point), offset, std::sqrt(body.friction * model_.friction[i])};
+    }
+  });
+  for (const Push& p : found_)
+    if (p.offset > 0) pushes_.push_back(p);
 }
 
 void Relaxation::find_contacts(const Vectors& x, std::vector<Contact>& contacts) const {

@@ -73,8 +73,14 @@ class Relaxation {
     double offset;
     double friction;
   };
+  struct Sounding {  // the last distance query of a particle against one body
+    Eigen::Vector3d at{0, 0, 0};
+    double distance = 0;  // signed, m; at least the search radius where nothing was found
+    bool known = false;
+  };
   void refresh_candidates(const std::vector<Eigen::Vector3d>& x);
   void find_pushes(const std::vector<Eigen::Vector3d>& x);
+  void find_pushes_of(std::size_t body, const std::vector<Eigen::Vector3d>& x);
   void find_contacts(const std::vector<Eigen::Vector3d>& x, std::vector<Contact>& contacts) const;
   double contact_energy_sum(const std::vector<Contact>& contacts) const;
   double push_energy(const std::vector<Eigen::Vector3d>& x) const;
@@ -106,7 +112,8 @@ class Relaxation {
   double time_step_ = 1.0 / 60;
   double rms_weight_ = 0;
   std::vector<double> extra_offset_;
-  std::vector<Push> pushes_;
+  std::vector<Push> pushes_, found_;
+  std::vector<std::vector<Sounding>> soundings_;  // [n_bodies][n_particles]
   std::vector<Contact> contacts_, trial_contacts_;
   std::vector<ContactStiffness> stiffness_;
   std::vector<Eigen::Vector3d> force_, net_, dx_, trial_, untangle_;
