@@ -9,6 +9,7 @@
 
 #include "runtime/base/number.hpp"
 #include "runtime/base/portable_math.hpp"
+#include "runtime/modeller/dressing.hpp"
 #include "runtime/modeller/placement_carry.hpp"
 #include "runtime/modeller/wrap_curve.hpp"
 
@@ -332,8 +333,19 @@ bool place_panels(const design::Garment& garment, const std::vector<body::Body>&
     if ((p.kind == Placement::Kind::on_part || p.kind == Placement::Kind::around) && !is_ring_part(p.part))
       ok = place_around_limb(w, i) && ok;
   }
+  bool any_rigid = std::any_of(garment.panels.begin(), garment.panels.end(), [](const design::Panel& p) {
+    return p.placement.kind == Placement::Kind::rigid;
+  });
+  if (any_rigid)
+    for (const body::Body& b : bodies) {
+      follow_arms(garment, b, model, w.place);
+      follow_head(garment, b, model, w.place);
+      clear_panels(garment, b, model, w.place);
+    }
   ok = ok && place_from_seams(w);
   average_shared(w.place, model);
+  if (any_rigid && ok)
+    for (const body::Body& b : bodies) clear_start(b, model);
   return ok;
 }
 

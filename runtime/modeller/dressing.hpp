@@ -1,0 +1,37 @@
+#pragma once
+// Patterns drawn flat in space are brought nearer to the body they are worn on: sleeves to the arms, hoods
+// behind the head, panels out of the body, and seams, which lie at the mean of the panels they join, off it.
+#include <vector>
+
+#include "runtime/body/body.hpp"
+#include "runtime/design/garment.hpp"
+#include "runtime/model/model.hpp"
+
+namespace garment::modeller {
+
+/// A sleeve is what is labelled "arm" or has "sleeve" in its name.
+bool is_sleeve(const design::Panel& panel);
+
+/// Turns and moves the rigidly placed sleeve panels of each side together so that their common axis lies on
+/// the arm of a person; how far out they begin stays. `place` [n_vertices], m. Bodies without arms change
+/// nothing.
+void follow_arms(const design::Garment& garment, const body::Body& body, const model::Model& model,
+                 std::vector<Eigen::Vector3d>& place);
+
+/// Moves hoods (upright panels that face sideways beside the head, sewn to each other) back until the seam
+/// between them lies behind the head, at most 15 cm.
+void follow_head(const design::Garment& garment, const body::Body& body, const model::Model& model,
+                 std::vector<Eigen::Vector3d>& place);
+
+/// Moves rigidly placed panels along their normals, away from the middle of the part of the body they lie on,
+/// until none of their own particles (those no seam shares) is less than 5 mm outside, at most 12 cm; a panel
+/// that this does not free stays where it was.
+void clear_panels(const design::Garment& garment, const body::Body& body, const model::Model& model,
+                  std::vector<Eigen::Vector3d>& place);
+
+/// Moves particles and edges of `model.start` that pierce a person out of it, along the normal of the closest
+/// point of its surface, or, in a leg, away from the leg's middle; neighbours follow smoothly. Returns how
+/// many places still pierce it. Persons only: a body without parts changes nothing.
+std::size_t clear_start(const body::Body& body, model::Model& model);
+
+}  // namespace garment::modeller

@@ -1,0 +1,154 @@
+// Pushing the start off the body: particles and points of edges go out, the others follow.
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <set>
+
+#include "runtime/base/parallel.hpp"
+#include "runtime/modeller/dressing.hpp"
+
+namespace garment::modeller {
+namespace {
+
+using Eigen::Vector3d;
+using model::Index;
+
+constexpr double kReach = 0.3;    // m, how deep in the body a point may lie
+constexpr double kGap = 4e-3;     // m, to which what pierces is pushed out
+constexpr double kSample = 8e-3;  // m, between the points looked at on an edge
+constexpr int kMostPushes = 60;
+constexpr int kFollowSweeps = 4;       // Jacobi sweeps by which neighbours follow, after each push
+constexpr double kMostPerPush = 0.02;  // m
+
+/// Point at fraction `t` of an edge and the way it has to go.
+struct Push {
+  Index a, b;
+  double t;
+  Vector3d way;
+};
+
+class Clearing {
+ public:
+  Clearing(const body::Body& body, model::Model& model)
+      : body_(body), x_(model.start), moved_(x_.size(), Vector3d::Zero()), neighbours_(x_.size()) {
+    std::set<std::array<Index, 2>> edges;
+    for (std::size_t t = 0; t < model.n_triangles(); ++t) {
+      auto c = model.corners(t);
+      for (int k = 0; k < 3; ++k)
+        if (c[k] != c[(k + 1) % 3])
+          edges.insert({std::min(c[k], c[(k + 1) % 3]), std::max(c[k], c[(k + 1) % 3])});
+    }
+    edges_.assign(edges.begin(), edges.end());
+    for (auto [a, b] : edges_) neighbours_[a].push_back(b), neighbours_[b].push_back(a);
+    for (const char* name : {"leg.left", "leg.right"})
+      if (auto leg = body.parts.find(name); leg != body.parts.end()) legs_.push_back(&leg->second);
+  }
+
+  std::size_t go() {
+    std::vector<Push> pushes = find(0);
+    for (int round = 0; round < kMostPushes && !pushes.empty(); ++round) {
+      apply(pushes);
+      pushes = find(0.5 * kGap);
+    }
+    return find(0).size();
+  }
+
+ private:
+  /// Points closer to the body than `gap`, edge by edge.
+  std::vector<Push> find(double gap) const {
+    constexpr std::size_t kGrain = 128;
+    std::vector<std::vector<Push>> found((edges_.size() + kGrain - 1) / kGrain);
+    parallel_for(edges_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t e = begin; e < end; ++e) look_at(edges_[e], gap, found[begin / kGrain]);
+    });
+    std::vector<Push> all;
+    for (const auto& f : found) all.insert(all.end(), f.begin(), f.end());
+    return all;
+  }
+
+  void look_at(const std::array<Index, 2>& edge, double gap, std::vector<Push>& out) const {
+    Vector3d d = x_[edge[1]] - x_[edge[0]];
+    int n = std::max(1, static_cast<int>(d.norm() / kSample));
+    for (int i = 0; i <= n; ++i) {
+      double t = static_cast<double>(i) / n;
+      Vector3d p = x_[edge[0]] + t * d;
+      auto hit = body_.closest(p, kReach);
+      if (hit && hit->distance < gap) out.push_back({edge[0], edge[1], t, way_out(p, *hit)});
+    }
+  }
+
+  Vector3d way_out(const Vector3d& p, const body::SurfacePoint& hit) const {
+    Vector3d way = (kGap - hit.distance) * hit.normal;
+    if (hit.distance < -kGap)  // on the surface itself the normal says where to go
+      if (std::optional<Vector3d> out = out_of_leg(p)) way = *out;
+    double length = way.norm();
+    return length > kMostPerPush ? Vector3d(way * (kMostPerPush / length)) : way;
+  }
+
+  /// Away from the middle of the leg at this height: the seam inside the leg must end between the legs even
+  /// where the front of the thigh is nearer.
+  std::optional<Vector3d> out_of_leg(const Vector3d& p) const {
+    const body::Section* best = nullptr;
+    for (const body::Part* leg : legs_) {
+      const body::Section* level = nullptr;
+      for (const body::Section& s : leg->sections)
+        if (!level || std::abs(p.y() - s.center.y()) < std::abs(p.y() - level->center.y())) level = &s;
+      if (!level || std::abs(p.y() - level->center.y()) > 0.02) continue;
+      if (!best || std::abs(p.x() - level->center.x()) < std::abs(p.x() - best->center.x())) best = level;
+    }
+    if (!best) return std::nullopt;
+    Vector3d d(p.x() - best->center.x(), 0, p.z() - best->center.z());
+    if (d.norm() < 1e-3) return std::nullopt;
+    d.normalize();
+    for (double s = 0; s < 0.15; s += 2e-3)
+      if (auto hit = body_.closest(p + s * d, kReach); !hit || hit->distance > 0)
+        return Vector3d((s + kGap / 2) * d);
+    return std::nullopt;
+  }
+
+  /// Ends of edges take what their points need (the least motion that does it), the mean over all points.
+  void apply(const std::vector<Push>& pushes) {
+    std::vector<Vector3d> sum(x_.size(), Vector3d::Zero());
+    std::vector<double> weight(x_.size(), 0);
+    for (const Push& p : pushes) {
+      double wa = 1 - p.t, wb = p.t, scale = 1 / (wa * wa + wb * wb);
+      sum[p.a] += wa * wa * scale * p.way, weight[p.a] += wa;
+      sum[p.b] += wb * wb * scale * p.way, weight[p.b] += wb;
+    }
+    std::vector<Vector3d> step(x_.size(), Vector3d::Zero());
+    std::vector<bool> pushed(x_.size(), false);
+    for (std::size_t i = 0; i < x_.size(); ++i)
+      if (weight[i] > 0) step[i] = sum[i] / weight[i], pushed[i] = true;
+    std::vector<Vector3d> before = moved_;
+    for (std::size_t i = 0; i < x_.size(); ++i) moved_[i] += step[i];
+    for (int sweep = 0; sweep < kFollowSweeps; ++sweep) {
+      std::vector<Vector3d> next = moved_;
+      for (std::size_t i = 0; i < x_.size(); ++i) {
+        if (pushed[i] || neighbours_[i].empty()) continue;
+        Vector3d mean = Vector3d::Zero();
+        for (Index j : neighbours_[i]) mean += moved_[j];
+        next[i] += 0.5 * (mean / static_cast<double>(neighbours_[i].size()) - moved_[i]);
+      }
+      moved_.swap(next);
+    }
+    for (std::size_t i = 0; i < x_.size(); ++i) x_[i] += moved_[i] - before[i];
+  }
+
+  const body::Body& body_;
+  std::vector<Vector3d>& x_;
+  std::vector<Vector3d> moved_;  ///< since the beginning, m
+  std::vector<std::vector<Index>> neighbours_;
+  std::vector<std::array<Index, 2>> edges_;
+  std::vector<const body::Part*> legs_;
+};
+
+}  // namespace
+
+std::size_t clear_start(const body::Body& body, model::Model& model) {
+  if (body.parts.empty() || body.mesh.triangles.empty()) return 0;
+  return Clearing(body, model).go();
+}
+
+}  // namespace garment::modeller
