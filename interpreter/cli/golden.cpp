@@ -38,7 +38,8 @@ struct Outcome {
   std::string text;  ///< what a .expected file holds
 };
 
-Outcome run_script(const std::string& path, const std::string& text, Stage stage, const std::string& stdlib_dir, Host& host) {
+Outcome run_script(const std::string& path, const std::string& text, Stage stage,
+                   const std::string& stdlib_dir, Host& host) {
   Outcome o;
   grammar::SourceId id = o.sources.add(fs::path(path).filename().string(), text);
   if (stage == Stage::parse) {
@@ -65,8 +66,8 @@ Outcome run_script(const std::string& path, const std::string& text, Stage stage
 /// One `#!` comment.
 struct Inline {
   std::size_t line = 0;  ///< of the code it speaks of, from 1
-  std::string code, part;
-  std::uint32_t first = 0, last = 0;  ///< columns
+  std::string severity, code, part;
+  std::uint32_t first = 0, last = 0;  ///< columns; 0: of the script as a whole, no place
 };
 
 struct InlineExpectations {
@@ -84,16 +85,25 @@ bool take_number(std::string_view& s, std::uint32_t& value) {
 
 std::optional<Inline> read_inline(std::string_view s) {
   Inline e;
+  auto skip_blanks = [&s] {
+    while (!s.empty() && s.front() == ' ') s.remove_prefix(1);
+  };
+  skip_blanks();
   std::size_t open = s.find('['), close = s.find(']');
   if (open == std::string_view::npos || close == std::string_view::npos || close < open) return std::nullopt;
+  e.severity = s.substr(0, open);
+  if (e.severity != "error" && e.severity != "warning" && e.severity != "note") return std::nullopt;
   e.code = s.substr(open + 1, close - open - 1);
   s.remove_prefix(close + 1);
-  while (!s.empty() && s.front() == ' ') s.remove_prefix(1);
-  if (!take_number(s, e.first) || s.empty() || s.front() != '-') return std::nullopt;
-  s.remove_prefix(1);
-  if (!take_number(s, e.last)) return std::nullopt;
-  std::size_t a = s.find('"'), b = s.rfind('"');
-  if (a != std::string_view::npos && b > a) e.part = s.substr(a + 1, b - a - 1);
+  skip_blanks();
+  if (!s.empty() && s.front() != '"') {
+    if (!take_number(s, e.first) || e.first == 0 || s.empty() || s.front() != '-') return std::nullopt;
+    s.remove_prefix(1);
+    if (!take_number(s, e.last)) return std::nullopt;
+    skip_blanks();
+  }
+  if (s.size() < 3 || s.front() != '"' || s.back() != '"') return std::nullopt;
+  e.part = s.substr(1, s.size() - 2);
   return e;
 }
 
@@ -110,7 +120,8 @@ InlineExpectations read_inlines(const std::string& text) {
     if (at != std::string_view::npos && row.substr(at, 2) == "#!") {
       out.any = true;
       row.remove_prefix(at + 2);
-      if (row.find("ok") != std::string_view::npos && row.find('[') == std::string_view::npos) continue;
+      while (!row.empty() && (row.back() == ' ' || row.back() == '\r')) row.remove_suffix(1);
+      if (row == " ok") continue;
       if (auto e = read_inline(row))
         open.push_back(*e);
       else
@@ -123,7 +134,22 @@ InlineExpectations read_inlines(const std::string& text) {
     }
     open.clear();
   }
+  for (Inline& e : open) {  // below the last line: the end of the text
+    e.line = line + 1;
+    out.wanted.push_back(e);
+  }
   return out;
+}
+
+bool is_expected(const Inline& e, const grammar::Diagnostic& d, const grammar::Sources& sources) {
+  const char* severity = d.severity == Severity::error     ? "error"
+                         : d.severity == Severity::warning ? "warning"
+                                                           : "note";
+  if (d.code != e.code || e.severity != severity || d.message.find(e.part) == std::string::npos) return false;
+  if (e.first == 0 || d.labels.empty()) return e.first == 0 && d.labels.empty();
+  grammar::Place a = sources.place(d.labels[0].span.source, d.labels[0].span.begin);
+  grammar::Place b = sources.place(d.labels[0].span.source, d.labels[0].span.end);
+  return a.line == e.line && a.column == e.first && (b.line != a.line || b.column == e.last + 1);
 }
 
 /// Differences between what was expected inline and what came; empty when all is well.
@@ -134,14 +160,12 @@ std::string compare_inline(const InlineExpectations& inlines, const Outcome& o) 
   for (const Inline& e : inlines.wanted) {
     bool found = false;
     for (std::size_t i = 0; i < o.diagnostics.size() && !found; ++i) {
-      const grammar::Diagnostic& d = o.diagnostics[i];
-      if (used[i] || d.code != e.code || d.labels.empty() || d.message.find(e.part) == std::string::npos) continue;
-      grammar::Place a = o.sources.place(d.labels[0].span.source, d.labels[0].span.begin);
-      grammar::Place b = o.sources.place(d.labels[0].span.source, d.labels[0].span.end);
-      found = a.line == e.line && a.column == e.first && (b.line != a.line || b.column == e.last + 1);
-      used[i] = used[i] || found;
+      if (used[i] || !is_expected(e, o.diagnostics[i], o.sources)) continue;
+      found = used[i] = true;
     }
-    if (!found) differences += fmt::format("  missing: line {} {} {}-{} \"{}\"\n", e.line, e.code, e.first, e.last, e.part);
+    if (!found)
+      differences += fmt::format("  missing: line {} {}[{}] {}-{} \"{}\"\n", e.line, e.severity, e.code,
+                                 e.first, e.last, e.part);
   }
   for (std::size_t i = 0; i < o.diagnostics.size(); ++i)
     if (!used[i]) differences += "  not expected:\n" + grammar::render(o.diagnostics[i], o.sources, false);
@@ -163,7 +187,8 @@ std::string line_difference(const std::string& golden, const std::string& now) {
   std::vector<std::string> a = split(golden), b = split(now);
   std::size_t head = 0, tail = 0;
   while (head < a.size() && head < b.size() && a[head] == b[head]) ++head;
-  while (tail + head < a.size() && tail + head < b.size() && a[a.size() - 1 - tail] == b[b.size() - 1 - tail]) ++tail;
+  while (tail + head < a.size() && tail + head < b.size() && a[a.size() - 1 - tail] == b[b.size() - 1 - tail])
+    ++tail;
   std::string out;
   for (std::size_t i = head; i + tail < a.size(); ++i) out += "  - " + a[i] + "\n";
   for (std::size_t i = head; i + tail < b.size(); ++i) out += "  + " + b[i] + "\n";
@@ -174,7 +199,8 @@ struct Tally {
   int passed = 0, failed = 0, updated = 0;
 };
 
-void test_script(const fs::path& path, const GoldenOptions& options, Host& host, Terminal& terminal, Tally& tally) {
+void test_script(const fs::path& path, const GoldenOptions& options, Host& host, Terminal& terminal,
+                 Tally& tally) {
   auto fail = [&](const std::string& why) {
     terminal.result(fmt::format("FAILED {}\n{}", path.string(), why));
     ++tally.failed;
@@ -198,7 +224,8 @@ void test_script(const fs::path& path, const GoldenOptions& options, Host& host,
   }
   std::string difference = line_difference(golden ? *golden.value : "", o.text);
   if (!options.update)
-    return fail((golden ? "" : "  has neither `#!` comments nor a .expected file; --update writes one\n") + difference);
+    return fail((golden ? "" : "  has neither `#!` comments nor a .expected file; --update writes one\n") +
+                difference);
   if (o.text.size() > kMaxGolden) return fail("  its output is over 20 KB: expect it inline instead");
   terminal.result(fmt::format("updated {}\n{}", golden_path.string(), difference));
   if (!host.write_file(golden_path.string(), o.text)) return fail("  the golden could not be written");
@@ -210,13 +237,16 @@ void test_script(const fs::path& path, const GoldenOptions& options, Host& host,
 ExitCode run_goldens(const GoldenOptions& options, Host& host, Terminal& terminal) {
   std::error_code error;
   std::vector<fs::path> scripts, goldens;
-  for (fs::recursive_directory_iterator it(options.folder, error), end; !error && it != end; it.increment(error)) {
+  for (fs::recursive_directory_iterator it(options.folder, error), end; !error && it != end;
+       it.increment(error)) {
     if (it->path().extension() == ".garment") scripts.push_back(it->path());
     if (it->path().extension() == ".expected") goldens.push_back(it->path());
   }
   if (error || scripts.empty()) {
-    show({plain_error("G0904", fmt::format("`{}` holds no scripts{}", options.folder, error ? ": " + error.message() : ""),
-                      "name a folder with .garment files")},
+    show({plain_error(
+             "G0904",
+             fmt::format("`{}` holds no scripts{}", options.folder, error ? ": " + error.message() : ""),
+             "name a folder with .garment files")},
          grammar::Sources{}, terminal);
     return kInputOutput;
   }
@@ -226,7 +256,8 @@ ExitCode run_goldens(const GoldenOptions& options, Host& host, Terminal& termina
   for (const fs::path& script : scripts) test_script(script, options, host, terminal, tally);
   for (fs::path golden : goldens)
     if (!fs::exists(golden.replace_extension(".garment"))) {
-      terminal.result(fmt::format("FAILED {}\n  has no script", golden.replace_extension(".expected").string()));
+      terminal.result(
+          fmt::format("FAILED {}\n  has no script", golden.replace_extension(".expected").string()));
       ++tally.failed;
     }
   if (tally.updated > 0) terminal.result(fmt::format("{} updated", tally.updated));

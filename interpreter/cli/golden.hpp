@@ -19,8 +19,10 @@ struct GoldenOptions {
 /// The stage is the name of a folder on the way: `parse` (the tree's outline), `model` (the model's summary),
 /// anything else is `check` (the diagnostics). A script whose comments say
 ///     #! error[G0312] 7-12 "part of the message"
-/// above a line expects just these diagnostics, at these columns of that line, and needs no .expected file; a script
-/// with `#! ok` expects none. A missing golden and a golden without its script fail.
+/// above a line expects just these diagnostics (error, warning or note), at these columns of that line, and needs no
+/// .expected file; without columns it expects one that speaks of the script as a whole. A diagnostic that goes over
+/// several lines is held to its first column only. A script with `#! ok` expects none. A missing golden and a golden
+/// without its script fail.
 ExitCode run_goldens(const GoldenOptions& options, Host& host, Terminal& terminal);
 
 }  // namespace garment::cli
