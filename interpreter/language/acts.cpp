@@ -78,7 +78,9 @@ double tolerance(Program& program, const Expr& expr, const BoundClause* within, 
   const Dimension dimension = q != nullptr ? q->dimension : p->dimension;
   if (w->percent) return w->value * size_of(b);
   if (w->dimension != dimension && !is_plain_zero(*w))
-    fail(program, Message("G0305", "`within` " + describe(w->dimension) + " of " + describe(dimension),
+    fail(program, Message("G0305",
+                          "`within` takes " + describe(w->dimension) + " where " + describe(dimension) +
+                              " is compared",
                           within->clause->span)
                       .help("take a percentage or " + describe(dimension)));
   return w->value;
@@ -187,6 +189,11 @@ void run_save(Program& program, const Statement& statement, Scope& scope) {
       fail(program,
            Message("G0309", "`" + path + "` has no extension; the kind of file is known by it", operand.span)
                .help("as in `save \"skirt.glb\"`"));
+    const std::string_view kind = std::string_view(path).substr(dot);
+    if (kind != ".obj" && kind != ".glb" && kind != ".ply" && kind != ".svg" && kind != ".png")
+      fail(program,
+           Message("G0905", "`" + std::string(kind) + "` is no format that can be written", operand.span)
+               .help("use .obj, .glb, .ply, .svg or .png"));
   }
   if (act.paths.empty())
     fail(program, Message("G0312", "`save` needs a file name in quotes", statement.keyword.span));

@@ -9,9 +9,14 @@ Clauses::Clauses(Program& program, const Statement& statement, Scope& scope, std
       record_(find_construct(statement.keyword.text)) {
   for (const Clause& clause : statement.clauses) {
     for (const Entry& entry : entries_)
-      if (entry.bound.clause->word.text == clause.word.text)
+      if (entry.bound.clause->word.text == clause.word.text) {
+        if (clause.word.text == "=")
+          fail(program, Message("G0314", "a second `=` in one statement", clause.word.span)
+                            .also(entry.bound.clause->word.span, "first here")
+                            .help("begin the next statement in a new line, or put `;` before it"));
         fail(program, Message("G0314", "`" + clause.word.text + "` is given twice", clause.word.span)
                           .also(entry.bound.clause->word.span, "first here"));
+      }
     entries_.push_back({{&clause, &scope}});
   }
   if (overrides == nullptr || record_ == nullptr) return;
@@ -70,9 +75,17 @@ const Expr& Clauses::value(const BoundClause& bound) const {
   if (clause.values.empty())
     fail(program_, Message("G0312", "`" + clause.word.text + "` needs a value", clause.word.span)
                        .help("`" + clause.word.text + ' ' + takes + "`"));
-  fail(program_,
-       Message("G0313", "`" + clause.word.text + "` takes one value, here is more", clause.values[1].span)
-           .help("`" + clause.word.text + ' ' + takes + "`"));
+  const Expr &first = clause.values[0], &second = clause.values[1];
+  if (first.kind == ExprKind::number && first.unit.empty() && second.kind == ExprKind::name) {
+    const std::string near = did_you_mean(second.text, unit_names());
+    fail(program_, Message("G0105", "unknown unit `" + second.text + "`", second.span, "after a number")
+                       .help(second.text == "in" ? "the inch is written `inch`"
+                             : near.empty()      ? "to multiply, write the sign: `2 * width`"
+                                                 : near));
+  }
+  fail(program_, Message("G0313", "`" + clause.word.text + "` takes one value, here is more", second.span)
+                     .help(clause.word.text == "=" ? "put an operator between the two, or begin a new line"
+                                                   : "`" + clause.word.text + ' ' + takes + "`"));
 }
 
 double checked_quantity(Program& program, const ClauseRecord& record, const Quantity& q, Span span) {
@@ -108,7 +121,8 @@ void Clauses::finish() {
     if (known != nullptr && known->doc.empty()) {
       report(program_,
              Message("G0315", "`" + word + "` of `" + statement_.keyword.text + "` is not supported yet",
-                     entry.bound.clause->span));
+                     entry.bound.clause->span)
+                 .help(kStillToCome));
       continue;
     }
     Message message("G0313", "`" + word + "` has no meaning in this `" + statement_.keyword.text + "`",

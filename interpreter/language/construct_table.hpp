@@ -10,6 +10,9 @@
 
 namespace garment::interpreter {
 
+/// The remedy where a word of the language has no meaning yet.
+inline constexpr const char* kStillToCome = "its meaning is still to come; leave it out for now";
+
 /// A clause word and what it takes. Where it takes one quantity, `dimension`, `min` and `max` (SI) are
 /// checked when the clause is read; min > max means "no bounds".
 struct ClauseRecord {
@@ -45,6 +48,9 @@ const grammar::Vocabulary& vocabulary();
 
 /// Text for `:help NAME`: form, doc, clauses with range and default, example. Empty if there is no such word.
 std::string help_text(std::string_view name);
+
+/// The reference of all constructs, functions and units as Markdown; docs/language.md holds it.
+std::string reference_markdown();
 
 /// The name of `candidates` nearest to `name`, if it is near enough to be a slip; else empty.
 std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates);

@@ -88,7 +88,7 @@ std::vector<ConstructRecord> later_constructs() {
       later("pressure", true, "pressure NAME on PANEL of PRESSURE", "a pressure on a panel", {"on", "of"}),
       later("constrain", false, "constrain distance | on_line | on_plane | equal ...",
             "a bilateral constraint", {"to", "on", "at"}),
-      later("path", true, "path NAME of BODY { ... }", "a body's motion in time", {"of", "for", "to", "="}),
+      later("path", true, "path NAME of BODY { ... }", "a body's motion in time", {"of", "for", "to", "="}, true),
       later("friction", false, "friction A B MU", "friction of a pair", {}),
   };
 }

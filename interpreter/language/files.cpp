@@ -34,8 +34,11 @@ Module& load(Program& program, const std::string& path, const std::string& name,
   if (depth > kMaxUseDepth) fail(program, Message("G0318", "files use files more than 16 deep", span));
   const HostResult<std::string> text = program.host.read_file(path, kMaxFile);
   if (!text)
-    fail(program, Message("G0318", "`" + name + "` cannot be used: " + text.error.message, span)
-                      .help("libraries are fabrics and bodies; other files are named in quotes"));
+    fail(program,
+         Message("G0318",
+                 "`" + std::string(program.sources.text(span)) + "` cannot be used: " + text.error.message,
+                 span)
+             .help("libraries are fabrics and bodies; other files are named in quotes"));
   Module& module = program.modules.emplace_back();
   module.name = name;
   module.library = true;

@@ -65,6 +65,10 @@ class EdgeDrawer {
       fail(program_,
            Message("G0313", "`close` goes back to where the outline began; it takes no end", name_span_));
     if (closes_) return first_;
+    if (const BoundClause* along = ways == 0 ? clauses_.find("along") : nullptr)
+      fail(
+          program_,
+          Message("G0315", "`along` of `edge` is not supported yet", along->clause->span).help(kStillToCome));
     if (ways != 1)
       fail(program_,
            Message(ways == 0 ? "G0312" : "G0415",

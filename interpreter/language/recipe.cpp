@@ -100,7 +100,8 @@ class RecipeMaker {
     const std::string& keyword = statement.keyword.text;
     const ConstructRecord* record = find_construct(keyword);
     if (record != nullptr && !record->supported)
-      fail(program_, Message("G0315", "`" + keyword + "` is not supported yet", statement.keyword.span));
+      fail(program_, Message("G0315", "`" + keyword + "` is not supported yet", statement.keyword.span)
+                         .help(kStillToCome));
     if (keyword == "rename" || keyword == "remove" || keyword == "replace") {
       if (!inherited_)
         fail(program_, Message("G0322", "`" + keyword + "` stands in the block of `like PANEL` only",
@@ -144,7 +145,8 @@ class RecipeMaker {
     for (const char* reserved : {"left", "right", "start", "end", "resolution"})
       if (name == reserved)
         fail(program_, Message("G0303", "`" + name + "` has a meaning of its own and cannot be a name here",
-                               statement.name->span));
+                               statement.name->span)
+                           .help("take a longer name"));
     if (const RecipeItem* other = find_item(recipe_, name)) {
       Message message("G0302", "the name `" + name + "` is taken in this panel", statement.name->span);
       if (other->statement->name) message.also(other->statement->name->span, "first here");

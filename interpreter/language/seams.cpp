@@ -58,7 +58,8 @@ class SeamMaker {
     if (word == ":" || word == "to") return take_side(clause);
     const ClauseRecord* record = find_clause(*find_construct("seam"), word);
     if (record != nullptr && record->doc.empty())
-      fail(program_, Message("G0315", "`" + word + "` of `seam` is not supported yet", clause.span));
+      fail(program_,
+           Message("G0315", "`" + word + "` of `seam` is not supported yet", clause.span).help(kStillToCome));
     if (sides_.empty()) fail(program_, Message("G0313", "`" + word + "` stands after its side", clause.span));
     Side& side = sides_.back();
     if (word == "reversed") {
@@ -95,7 +96,8 @@ class SeamMaker {
       fail(program_, Message("G0312", "`" + clause.word.text + "` needs a value", clause.word.span));
     if (clause.values.size() > 1)
       fail(program_,
-           Message("G0315", "a relation on part of a side is not supported yet", clause.values[1].span));
+           Message("G0315", "a relation on part of a side is not supported yet", clause.values[1].span)
+               .help("state it for the whole side"));
     const Quantity q =
         eval_quantity(program_, clause.values[0], scope_, kNumber, "`" + clause.word.text + "`");
     const double x = checked_quantity(program_, record, q, clause.values[0].span);

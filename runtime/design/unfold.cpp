@@ -84,13 +84,14 @@ UnfoldResult unfold(const Panel& half, std::size_t fold_edge, bool drawn_is_left
   const std::size_t n = half.edges.size();
   const Edge& fold = half.edges[fold_edge];
   const double fold_x = fold.curve.start().x();
-  for (const Point2& p : fold.curve.polyline(1e-5)) {
-    if (std::fabs(p.x() - fold_x) <= kStraight) continue;
+  double off = 0;
+  for (const Point2& p : fold.curve.polyline(1e-5)) off = std::max(off, std::fabs(p.x() - fold_x));
+  if (off > kStraight) {
     result.findings.push_back(finding("G0404",
                                       "the fold `" + fold.name + "` of `" + half.name +
                                           "` must be straight along y; it leaves that line by " +
-                                          format_number(1000 * std::fabs(p.x() - fold_x), 3) + " mm",
-                                      fold.origin, "", "give both its ends the same x"));
+                                          format_number(1000 * off, 3) + " mm",
+                                      fold.origin, "", "draw it straight, with the same x at both ends"));
     return result;
   }
   if (n < 3) {
