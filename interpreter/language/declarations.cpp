@@ -40,7 +40,10 @@ std::vector<Value> loop_values(Program& program, const Statement& statement, Sco
                           expr.span));
   if (to - from > static_cast<double>(kMaxExpanded))
     fail(program,
-         Message("G0327", "the loop would run " + format_quantity(to - from + 1, {}) + " times", expr.span)
+         Message("G0327",
+                 "the loop would run " +
+                     std::to_string(static_cast<long long>(std::min(to - from, 1e15)) + 1) + " times",
+                 expr.span)
              .help("at most 100000"));
   std::vector<Value> values;
   for (double x = from; x <= to; x += 1) values.push_back(number_value(x));
@@ -141,7 +144,7 @@ class Registrar {
     const bool unsupported = record != nullptr && !record->supported;
     if (unsupported && !statement.broken)
       report(program_, Message("G0315", "`" + keyword + "` is not supported yet", statement.keyword.span)
-                           .help("it is a word of the language whose meaning is still to come"));
+                           .help(kStillToCome));
     if (!statement.broken && !unsupported) {
       if (module_.library && (record == nullptr || !record->in_library))
         fail(program_, Message("G0322", "a used file may not have `" + keyword + "`", statement.keyword.span)
@@ -170,7 +173,12 @@ class Registrar {
     const std::string& keyword = statement.keyword.text;
     const bool local = nested && (keyword == "let" || keyword == "fn");
     Scope& target = local ? scope : *module_.scope;
-    check_new_name(program_, name, written.span, target);
+    try {
+      check_new_name(program_, name, written.span, target);
+    } catch (const Stop&) {  // what speaks of a refused name is no second mistake
+      module_.has_broken = module_.has_broken || !target.declared.contains(name);
+      throw;
+    }
     Declaration& declaration = program_.declarations.emplace_back();
     declaration.name = name;
     declaration.statement = &statement;
@@ -230,11 +238,14 @@ void attach_assignment(Program& program, const Item& item) {
 }  // namespace
 
 void check_new_name(Program& program, const std::string& name, Span span, Scope& scope) {
-  if (find_unit(name)) fail(program, Message("G0303", "`" + name + "` is a unit and cannot be a name", span));
+  const char* const longer = "take a longer name";
+  if (find_unit(name))
+    fail(program, Message("G0303", "`" + name + "` is a unit and cannot be a name", span).help(longer));
   if (find_function(name) != nullptr)
-    fail(program, Message("G0303", "`" + name + "` is a builtin and cannot be a name", span));
+    fail(program, Message("G0303", "`" + name + "` is a builtin and cannot be a name", span).help(longer));
   if (name == "start" || name == "end" || name == "true" || name == "false")
-    fail(program, Message("G0303", "`" + name + "` has a meaning of its own and cannot be a name", span));
+    fail(program,
+         Message("G0303", "`" + name + "` has a meaning of its own and cannot be a name", span).help(longer));
   const auto declared = scope.declared.find(name);
   if (declared != scope.declared.end() || scope.values.contains(name)) {
     Message message("G0302", "the name `" + name + "` is taken", span);
