@@ -17,6 +17,7 @@ constexpr double kPanelGap = 5e-3;       // m
 constexpr double kPanelStep = 5e-3;      // m
 constexpr double kMostPanelMove = 0.12;  // m
 constexpr double kHoodGap = 0.01;        // m
+constexpr double kMostSlide = 0.3;       // m
 constexpr double kMostHoodMove = 0.15;   // m
 
 bool contains_no_case(std::string_view text, std::string_view part) {
@@ -111,6 +112,23 @@ bool measure(const model::Model& model, const std::vector<Vector3d>& place,
   return sleeve.length > 0.02;
 }
 
+/// Slides a sleeve outwards until every point of its cap lies outside the point of the armhole that it is
+/// sewn to: a cap that overlaps the bodice would cut it.
+void slide_out(const model::Model& model, const std::vector<std::size_t>& panels,
+               const std::vector<bool>& in_sleeve, const Vector3d& axis, std::vector<Vector3d>& place) {
+  std::vector<double> armhole(model.n_particles(), -1e300);
+  for (std::size_t v = 0; v < model.n_vertices(); ++v)
+    if (!in_sleeve[model.vertex_panel[v]])
+      armhole[model.vertex_particle[v]] = std::max(armhole[model.vertex_particle[v]], axis.dot(place[v]));
+  double slide = 0;
+  for (std::size_t p : panels)
+    for_vertices(model, p, [&](Index v) {
+      slide = std::max(slide, armhole[model.vertex_particle[v]] - axis.dot(place[v]));
+    });
+  if (slide > kMostSlide) return;
+  for (std::size_t p : panels) for_vertices(model, p, [&](Index v) { place[v] += slide * axis; });
+}
+
 }  // namespace
 
 bool is_sleeve(const design::Panel& panel) {
@@ -143,6 +161,7 @@ void follow_arms(const design::Garment& garment, const body::Body& body, const m
     Eigen::Matrix3d turn = Eigen::Quaterniond::FromTwoVectors(sleeve.axis, axis).toRotationMatrix();
     for (std::size_t p : sleeve.panels)
       for_vertices(model, p, [&](Index v) { place[v] = middle + turn * (place[v] - sleeve.middle); });
+    slide_out(model, sleeve.panels, in_sleeve, axis, place);
   }
 }
 

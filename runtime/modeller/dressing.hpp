@@ -18,6 +18,12 @@ bool is_sleeve(const design::Panel& panel);
 void follow_arms(const design::Garment& garment, const body::Body& body, const model::Model& model,
                  std::vector<Eigen::Vector3d>& place);
 
+/// Turns the legs of trousers that are drawn for another pose about their crotch onto the legs of a person,
+/// and lowers them until the crotch lies 2 cm below the person's, at most 20 cm. Panels are legs when left
+/// and right, front and back meet in one particle near the crotch.
+void follow_legs(const design::Garment& garment, const body::Body& body, const model::Model& model,
+                 std::vector<Eigen::Vector3d>& place);
+
 /// Moves hoods (upright panels that face sideways beside the head, sewn to each other) back until the seam
 /// between them lies behind the head, at most 15 cm.
 void follow_head(const design::Garment& garment, const body::Body& body, const model::Model& model,
@@ -27,6 +33,12 @@ void follow_head(const design::Garment& garment, const body::Body& body, const m
 /// until none of their own particles (those no seam shares) is less than 5 mm outside, at most 12 cm; a panel
 /// that this does not free stays where it was.
 void clear_panels(const design::Garment& garment, const body::Body& body, const model::Model& model,
+                  std::vector<Eigen::Vector3d>& place);
+
+/// Seams bring their particles to the mean of the places of their panels; here the rest of each rigidly
+/// placed panel follows, less the farther it lies from the seam (about 8 cm), so that no row of cells takes
+/// the whole way.
+void spread_seams(const design::Garment& garment, const model::Model& model,
                   std::vector<Eigen::Vector3d>& place);
 
 /// Moves particles and edges of `model.start` that pierce a person out of it, along the normal of the closest

@@ -15,9 +15,10 @@ namespace {
 using Eigen::Vector3d;
 using model::Index;
 
-constexpr double kReach = 0.3;    // m, how deep in the body a point may lie
-constexpr double kGap = 4e-3;     // m, to which what pierces is pushed out
-constexpr double kSample = 8e-3;  // m, between the points looked at on an edge
+constexpr double kReach = 0.3;     // m, how deep in the body a point may lie
+constexpr double kGap = 4e-3;      // m, to which what pierces is pushed out
+constexpr double kSample = 8e-3;   // m, between the points looked at on an edge
+constexpr double kSideGap = 1e-3;  // m, of one leg's cloth from the middle
 constexpr int kMostPushes = 60;
 constexpr int kFollowSweeps = 4;       // Jacobi sweeps by which neighbours follow, after each push
 constexpr double kMostPerPush = 0.02;  // m
@@ -43,7 +44,9 @@ class Clearing {
     edges_.assign(edges.begin(), edges.end());
     for (auto [a, b] : edges_) neighbours_[a].push_back(b), neighbours_[b].push_back(a);
     for (const char* name : {"leg.left", "leg.right"})
-      if (auto leg = body.parts.find(name); leg != body.parts.end()) legs_.push_back(&leg->second);
+      if (auto leg = body.parts.find(name); leg != body.parts.end() && !leg->second.sections.empty())
+        legs_.push_back(&leg->second);
+    find_sides(model);
   }
 
   std::size_t go() {
@@ -133,7 +136,35 @@ class Clearing {
       }
       moved_.swap(next);
     }
-    for (std::size_t i = 0; i < x_.size(); ++i) x_[i] += moved_[i] - before[i];
+    for (std::size_t i = 0; i < x_.size(); ++i) {
+      x_[i] += moved_[i] - before[i];
+      if (pushed[i]) keep_side(i);
+    }
+  }
+
+  /// Which leg's cloth a particle is: +1 where all its panels lie left of the middle, -1 right, 0 neither.
+  void find_sides(const model::Model& model) {
+    side_.assign(x_.size(), 0);
+    if (legs_.size() < 2) return;
+    const Vector3d a = legs_[0]->sections.front().center, b = legs_[1]->sections.front().center;
+    middle_ = (a.x() + b.x()) / 2;
+    top_ = std::min(a.y(), b.y());
+    std::vector<double> mean(model.panels.size(), 0);
+    for (std::size_t v = 0; v < model.n_vertices(); ++v)
+      mean[model.vertex_panel[v]] += x_[model.vertex_particle[v]].x() - middle_;
+    std::vector<std::array<bool, 2>> held(x_.size(), {false, false});
+    for (std::size_t v = 0; v < model.n_vertices(); ++v)
+      held[model.vertex_particle[v]][mean[model.vertex_panel[v]] > 0 ? 1 : 0] = true;
+    for (std::size_t i = 0; i < x_.size(); ++i)
+      if (held[i][0] != held[i][1]) side_[i] = held[i][1] ? 1 : -1;
+  }
+
+  /// Cloth of one leg that is pushed between the legs stays on its side of the middle.
+  void keep_side(std::size_t i) {
+    double over = kSideGap - side_[i] * (x_[i].x() - middle_);
+    if (side_[i] == 0 || over <= 0 || x_[i].y() > top_) return;
+    x_[i].x() += side_[i] * over;
+    moved_[i].x() += side_[i] * over;
   }
 
   const body::Body& body_;
@@ -142,6 +173,8 @@ class Clearing {
   std::vector<std::vector<Index>> neighbours_;
   std::vector<std::array<Index, 2>> edges_;
   std::vector<const body::Part*> legs_;
+  std::vector<int> side_;
+  double middle_ = 0, top_ = -1e300;  ///< x between the legs, y of their upper ends, m
 };
 
 }  // namespace

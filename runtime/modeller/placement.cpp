@@ -340,9 +340,12 @@ bool place_panels(const design::Garment& garment, const std::vector<body::Body>&
     for (const body::Body& b : bodies) {
       follow_arms(garment, b, model, w.place);
       follow_head(garment, b, model, w.place);
+      follow_legs(garment, b, model, w.place);
       clear_panels(garment, b, model, w.place);
     }
   ok = ok && place_from_seams(w);
+  if (any_rigid && ok && std::any_of(bodies.begin(), bodies.end(), [](const body::Body& b) { return !b.parts.empty(); }))
+    spread_seams(garment, model, w.place);
   average_shared(w.place, model);
   if (any_rigid && ok)
     for (const body::Body& b : bodies) clear_start(b, model);

@@ -1,0 +1,72 @@
+// Seams pull panels that are drawn apart together: the way goes into the panels, not into the cells beside
+// the seam.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "runtime/modeller/dressing.hpp"
+
+namespace garment::modeller {
+namespace {
+
+using Eigen::Vector3d;
+using model::Index;
+
+constexpr double kDepth = 0.08;  // m, over which the displacement of a seam dies away
+constexpr int kMostSweeps = 400;
+
+double mean_edge(const std::set<std::array<Index, 2>>& edges, const model::Model& model) {
+  double sum = 0;
+  for (auto [a, b] : edges) sum += (model.vertex_uv[a] - model.vertex_uv[b]).norm();
+  return edges.empty() ? 1 : sum / static_cast<double>(edges.size());
+}
+
+}  // namespace
+
+void spread_seams(const design::Garment& garment, const model::Model& model, std::vector<Vector3d>& place) {
+  std::vector<Vector3d> sum(model.n_particles(), Vector3d::Zero());
+  std::vector<int> count(model.n_particles(), 0);
+  for (std::size_t v = 0; v < model.n_vertices(); ++v) {
+    sum[model.vertex_particle[v]] += place[v];
+    ++count[model.vertex_particle[v]];
+  }
+  std::vector<Vector3d> move(model.n_vertices(), Vector3d::Zero());
+  std::vector<bool> fixed(model.n_vertices(), false);
+  for (std::size_t v = 0; v < model.n_vertices(); ++v) {
+    Index i = model.vertex_particle[v];
+    if (count[i] < 2) continue;
+    move[v] = sum[i] / count[i] - place[v];
+    fixed[v] = true;
+  }
+  for (std::size_t p = 0; p < garment.panels.size(); ++p) {
+    if (garment.panels[p].placement.kind != design::Placement::Kind::rigid) continue;
+    const model::PanelRange& range = model.panels[p];
+    std::set<std::array<Index, 2>> edges;
+    for (Index t = range.first_triangle; t < range.first_triangle + range.n_triangles; ++t)
+      for (int k = 0; k < 3; ++k) {
+        Index a = model.triangle[t][k], b = model.triangle[t][(k + 1) % 3];
+        edges.insert({std::min(a, b), std::max(a, b)});
+      }
+    double cells = kDepth / mean_edge(edges, model);
+    int sweeps = std::min(kMostSweeps, static_cast<int>(2 * cells * cells) + 1);
+    std::vector<Vector3d> total(range.n_vertices);
+    std::vector<int> n(range.n_vertices);
+    for (int sweep = 0; sweep < sweeps; ++sweep) {
+      std::fill(total.begin(), total.end(), Vector3d::Zero());
+      std::fill(n.begin(), n.end(), 0);
+      for (auto [a, b] : edges) {
+        total[a - range.first_vertex] += move[b], ++n[a - range.first_vertex];
+        total[b - range.first_vertex] += move[a], ++n[b - range.first_vertex];
+      }
+      for (Index k = 0; k < range.n_vertices; ++k) {
+        Index v = range.first_vertex + k;
+        if (!fixed[v] && n[k] > 0) move[v] += 0.5 * (total[k] / n[k] - move[v]);
+      }
+    }
+    for (Index v = range.first_vertex; v < range.first_vertex + range.n_vertices; ++v)
+      if (!fixed[v]) place[v] += move[v];
+  }
+}
+
+}  // namespace garment::modeller
