@@ -26,23 +26,76 @@ struct CallGuard {
 
 struct FormalParameter {
   std::string name;
+  std::string kind;  ///< "length", "number", ...; empty: anything
   const Expr* standard = nullptr;
 };
 
-/// Parameters of `fn f(a, b: 2)`; they stand as the arguments of a call.
+constexpr std::pair<std::string_view, Dimension> kQuantityKinds[] = {{"number", kNumber}, {"length", kLength},
+                                                                     {"angle", kAngle},   {"area", kArea},
+                                                                     {"time", kTime},     {"mass", kMass}};
+constexpr std::string_view kOtherKinds[] = {"text",   "truth", "point", "list",
+                                            "fabric", "body",  "panel", "edge"};
+
+std::vector<std::string> kind_names() {
+  std::vector<std::string> names(std::begin(kOtherKinds), std::end(kOtherKinds));
+  for (const auto& [name, dimension] : kQuantityKinds) names.emplace_back(name);
+  return names;
+}
+
+bool is_kind(const Value& value, const std::string& kind) {
+  if (kind == "text") return value.as<std::string>() != nullptr;
+  if (kind == "truth") return value.as<bool>() != nullptr;
+  if (kind == "point") return value.as<PointValue>() != nullptr;
+  if (kind == "list") return value.as<ListValue>() != nullptr;
+  if (kind == "fabric") return value.as<FabricValue>() != nullptr;
+  if (kind == "body") return value.as<BodyValue>() != nullptr;
+  if (kind == "panel") return value.as<PanelValue>() != nullptr;
+  return value.as<EdgeValue>() != nullptr;
+}
+
+/// The value as its parameter takes it, or a report and Stop.
+Value checked_kind(Program& program, const FormalParameter& parameter, Value value, Span span) {
+  if (parameter.kind.empty()) return value;
+  for (const auto& [name, dimension] : kQuantityKinds)
+    if (name == parameter.kind)
+      return Value{as_quantity(program, value, span, dimension, "`" + parameter.name + "`")};
+  if (is_kind(value, parameter.kind)) return value;
+  const bool vowel = parameter.kind == "edge";
+  fail(program, Message("G0306",
+                        kind_of(value) + " where `" + parameter.name + "` takes " +
+                            (parameter.kind == "text" ? ""
+                             : vowel                  ? "an "
+                                                      : "a ") +
+                            parameter.kind,
+                        span));
+}
+
+/// Parameters of `fn f(a, b: length, c: length = 2 cm)`; they stand as the arguments of a call.
 std::vector<FormalParameter> parameters_of(Program& program, const Expr& head) {
   std::vector<FormalParameter> parameters;
+  const std::vector<std::string> kinds = kind_names();
   for (std::size_t k = 1; k < head.children.size(); ++k) {
     const Expr& child = head.children[k];
     FormalParameter parameter;
-    if (k < head.labels.size() + 1 && !head.labels[k - 1].text.empty()) {
+    const bool labelled = k < head.labels.size() + 1 && !head.labels[k - 1].text.empty();
+    const bool standard = child.kind == ExprKind::binary && child.text == "=" && child.children.size() == 2;
+    const Expr& word = standard ? child.children[0] : child;
+    if (word.kind != ExprKind::name || (standard && !labelled))
+      fail(program,
+           Message("G0307", "a parameter is `name`, `name: kind` or `name: kind = default`", child.span));
+    if (labelled) {
       parameter.name = head.labels[k - 1].text;
-      const bool typed = child.kind == ExprKind::binary && child.text == "=" && child.children.size() == 2;
-      parameter.standard = typed ? &child.children[1] : &child;
+      parameter.kind = word.text;
+      if (std::find(kinds.begin(), kinds.end(), parameter.kind) == kinds.end()) {
+        std::string hint = did_you_mean(parameter.kind, kinds);
+        if (hint.empty()) {
+          for (const std::string& kind : kinds) hint += (hint.empty() ? "kinds are " : ", ") + kind;
+        }
+        fail(program, Message("G0301", "there is no kind `" + parameter.kind + "`", word.span).help(hint));
+      }
+      if (standard) parameter.standard = &child.children[1];
     } else {
-      if (child.kind != ExprKind::name)
-        fail(program, Message("G0307", "a parameter is a name, or `name: default`", child.span));
-      parameter.name = child.text;
+      parameter.name = word.text;
     }
     for (const FormalParameter& other : parameters)
       if (other.name == parameter.name)
@@ -84,7 +137,7 @@ Value call_declared(Program& program, const Declaration& function, const Expr& e
       if (next >= parameters.size())
         fail(program, Message("G0307",
                               "`" + function.name + "` takes " + std::to_string(parameters.size()) +
-                                  " values, here is one more",
+                                  (parameters.size() == 1 ? " value" : " values") + ", here is one more",
                               expr.children[k].span));
       name = parameters[next++].name;
     } else if (std::find(names.begin(), names.end(), name) == names.end()) {
@@ -92,14 +145,18 @@ Value call_declared(Program& program, const Declaration& function, const Expr& e
     }
     if (local.values.contains(name))
       fail(program, Message("G0314", "`" + name + "` is given twice", expr.children[k].span));
-    local.values.emplace(name, eval(program, expr.children[k], scope));
+    const auto formal = std::find(names.begin(), names.end(), name) - names.begin();
+    local.values.emplace(name, checked_kind(program, parameters[static_cast<std::size_t>(formal)],
+                                            eval(program, expr.children[k], scope), expr.children[k].span));
   }
   for (const FormalParameter& parameter : parameters) {
     if (local.values.contains(parameter.name)) continue;
     if (parameter.standard == nullptr)
       fail(program, Message("G0307", "`" + function.name + "` needs `" + parameter.name + "`", expr.span)
                         .also(statement.operands[0].span, "declared here"));
-    local.values.emplace(parameter.name, eval(program, *parameter.standard, local));
+    local.values.emplace(parameter.name,
+                         checked_kind(program, parameter, eval(program, *parameter.standard, local),
+                                      parameter.standard->span));
   }
   Value result = eval(program, statement.clauses[0].values[0], local);
   if (local.half_used)

@@ -58,7 +58,7 @@ std::vector<ConstructRecord> basics() {
        .example = "measure hem_width = length(front.hem)",
        .clauses = kDefinition},
       {.keyword = "fn",
-       .form = "fn NAME(PARAMETER, NAMED: DEFAULT, ...) = VALUE",
+       .form = "fn NAME(PARAMETER, PARAMETER: KIND = DEFAULT, ...) = VALUE",
        .doc = "a function",
        .example = "fn half(x) = x / 2",
        .clauses = kDefinition,

@@ -301,7 +301,7 @@ TEST_CASE("bodies") {
 
   refuses("use bodies\nbody form = bodies.woman(«sise»: 40)\n", "G0307", "did you mean `size`?");
   refuses("use bodies\nbody form = «bodies.woman(size: 60)»\n", "G0309", "34 .. 48");
-  refuses("use bodies\nbody form = «bodies.woman(bust: 94)»\n", "G0305");
+  refuses("use bodies\nbody form = bodies.woman(bust: «94»)\n", "G0308", "94 cm");
   refuses("body form = mannequin(sex: \"woman\", size: 40, bust_chest: «94»)\n", "G0308");
   refuses("body form = mannequin(sex: «\"dog\"», size: 40)\n", "G0309");
   refuses("body form = «3 cm»\n", "G0306");

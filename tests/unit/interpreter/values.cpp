@@ -1,4 +1,6 @@
 // Units, expressions, functions, names.
+#include <cstdlib>
+
 #include "interpreter/language/construct_table.hpp"
 #include "interpreter/language/function_table.hpp"
 #include "interpreter/language/units.hpp"
@@ -97,7 +99,7 @@ TEST_CASE("expressions have the value a reader expects") {
   for (const auto& [expr, text] : cases)
     if (*text != '\0') CHECK(value_of(expr) == text);
   CHECK(value_of("half(9 cm)", "fn half(x) = x / 2") == "4.5 cm");
-  CHECK(value_of("area_of(w: 2 cm)", "fn area_of(w, h: 2 * w) = w * h") == "8 cm^2");
+  CHECK(value_of("area_of(w: 2 cm)", "fn area_of(w, h: length = 2 * w) = w * h") == "8 cm^2");
   CHECK(value_of("fact(10)", "fn fact(n) = if n < 2 { 1 } else { n * fact(n - 1) }") == "3628800");
   CHECK(value_of("r.b", "let r = { a = 1, b = 2 cm }") == "2 cm");
   CHECK(value_of("r.a", "let q = { a = 1, b = 2 cm }\nlet r = q with { a = 7 }") == "7");
@@ -124,6 +126,9 @@ TEST_CASE("what an expression may not say") {
   refuses("fn f(x) = x\nlet a = f(1, «2»)\n", "G0307");
   refuses("fn f(x) = x\nlet a = «f()»\n", "G0307", "needs `x`");
   refuses("fn f(x) = x\nlet a = f(«y»: 2)\n", "G0307", "takes no `y`");
+  refuses("fn f(x: length) = x\nlet a = f(«2»)\n", "G0308", "2 cm");
+  refuses("fn f(x: text) = x\nlet a = f(«2»)\n", "G0306");
+  refuses("fn f(x: «lenght») = x\nlet a = f(2 cm)\n", "G0301", "did you mean `length`?");
   refuses("fn f(n) = f(n + 1)\nlet a = f(1)\n", "G0316", "256");
   refuses("let a = «strain(all)»\n", "G0325", "measure");
   refuses("let x = 3\nlet a = «x»(2)\n", "G0306");
@@ -253,4 +258,21 @@ TEST_CASE("every example of the table parses and every function example has a va
     // An example of a panel shows "...", which is no statement.
     if (record.example.find("...") == std::string_view::npos) CHECK(parsed.diagnostics.empty());
   }
+}
+
+TEST_CASE("the reference page is that of the table") {
+  const std::string path = std::string(GARMENT_SOURCE_DIR) + "/docs/language.md";
+  const auto page = system_host().read_file(path, 1 << 20);
+  REQUIRE(page);
+  const std::string open = "GARMENT_UPDATE_DOCS=1 -->\n", shut = "<!-- end of the reference -->";
+  const std::size_t begin = page.value->find(open), end = page.value->find(shut);
+  REQUIRE(begin != std::string::npos);
+  REQUIRE(end != std::string::npos);
+  const std::string wanted = "\n" + reference_markdown() + "\n";
+  const std::size_t from = begin + open.size();
+  if (std::getenv("GARMENT_UPDATE_DOCS") != nullptr) {
+    REQUIRE(system_host().write_file(path, page.value->substr(0, from) + wanted + page.value->substr(end)));
+    return;
+  }
+  CHECK(page.value->substr(from, end - from) == wanted);
 }
