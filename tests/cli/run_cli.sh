@@ -1,0 +1,277 @@
+#!/usr/bin/env bash
+# Runs the program as a user does, and looks at what it prints, writes and returns.
+#   run_cli.sh PROGRAM SOURCE_DIR
+set -u
+program=$1
+here=$2/tests/cli
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+
+failures=0
+checks=0
+fail() {
+  failures=$((failures + 1))
+  echo "FAILED: $*"
+  sed 's/^/    out: /' out.txt 2>/dev/null | head -20
+  sed 's/^/    err: /' err.txt 2>/dev/null | head -20
+}
+ok() { checks=$((checks + 1)); }
+
+# run EXPECTED_EXIT_CODE ARGUMENT...: standard output in out.txt, standard error in err.txt
+run() {
+  local expected=$1
+  shift
+  "$program" "$@" >out.txt 2>err.txt </dev/null
+  local code=$?
+  ok
+  [ $code -eq "$expected" ] || fail "\`garment $*\` returned $code, expected $expected"
+}
+says() { ok; grep -qF -- "$1" out.txt || fail "standard output does not say: $1"; }
+complains() { ok; grep -qF -- "$1" err.txt || fail "standard error does not say: $1"; }
+silent() { ok; [ ! -s "$1" ] || fail "$1 should be empty"; }
+exists() { ok; [ -s "$1" ] || fail "$1 is missing or empty"; }
+absent() { ok; [ ! -e "$1" ] || fail "$1 should not be there"; }
+no_leftovers() { ok; [ -z "$(find "$1" -name '*.tmp' 2>/dev/null)" ] || fail "half-written files below $1"; }
+
+# json EXPRESSION FILE: the value of an expression on the parsed file, written for both languages
+if command -v python3 >/dev/null && python3 -c '' 2>/dev/null; then
+  parses() { python3 -c 'import json,sys; json.load(open(sys.argv[1]))' "$1" 2>/dev/null; }
+elif command -v node >/dev/null; then
+  parses() { node -e 'JSON.parse(require("fs").readFileSync(process.argv[1]))' "$1" 2>/dev/null; }
+else
+  echo "SKIPPED: neither python3 nor node is here; that --json parses was not looked at"
+  parses() { return 0; }
+fi
+is_json() { ok; parses "$1" || fail "$1 is not JSON"; }
+# The first value of a key in a JSON file, as text.
+value_of() { grep -o "\"$1\": *[^,}]*" "$2" | head -1 | sed 's/^[^:]*: *//; s/"//g'; }
+
+cp "$here/square.garment" "$here/slow.garment" .
+
+# ---- help and version
+run 0 --help
+says "examples:"
+says "exit codes: 0 ok, 1 diagnostics, 2 usage"
+silent err.txt
+for command in run check model parse fmt import test explain; do
+  run 0 $command --help
+  says "Usage: garment $command"
+done
+run 0 --version
+says "garment "
+
+# ---- usage
+run 2
+run 2 knit skirt.garment
+run 2 run
+run 2 run square.garment --sparkle
+run 2 run square.garment --threads 0
+run 2 check square.garment -p wide
+complains "error[G1001]"
+run 2 explain G9999
+complains "is no diagnostic code"
+
+# ---- explain
+run 0 explain G0501
+says "G0501: the sides of a seam do not have the same length"
+says "What to do:"
+
+# ---- check
+run 0 check square.garment
+silent out.txt
+complains "square.garment: ok, 1 panel, 0 seams"
+run 0 check square.garment -q
+silent err.txt
+run 0 check square.garment --json
+is_json out.txt
+printf 'garment 1 "wrong"\nlet w = 20 cm + 3\n' >wrong.garment
+run 1 check wrong.garment
+silent out.txt
+complains "error[G0305]"
+complains "wrong.garment:2:9"
+run 1 check wrong.garment --json
+is_json out.txt
+says '"G0305"'
+silent err.txt
+run 3 check nobody.garment
+complains "error[G0901]"
+complains "nobody.garment"
+run 3 check .
+complains "error[G0901]"
+: >empty.garment
+run 1 check empty.garment
+complains "the garment has no panels"
+
+# ---- parameters
+run 0 model square.garment
+cp out.txt model.txt
+says "particles"
+run 0 model square.garment -p wide=20cm
+ok
+cmp -s out.txt model.txt && fail "-p wide=20cm changed nothing"
+run 1 check square.garment -p wide=3m
+complains "error[G0310]"
+run 1 check square.garment -p wdie=20cm
+complains "error[G0324]"
+complains "wide"
+run 1 check square.garment -p wide=20
+complains "error[G0308]"
+run 0 model square.garment --json
+is_json out.txt
+
+# ---- parse and fmt
+run 0 parse square.garment
+says "panel"
+run 0 parse square.garment --json
+is_json out.txt
+printf 'let w = 2 *\n' >cut.garment
+run 1 parse cut.garment
+complains "error[G0206]"
+run 0 fmt --check square.garment
+printf 'garment 1   "loose"\nlet   w=20   cm\n' >loose.garment
+run 1 fmt --check loose.garment
+run 0 fmt --stdout loose.garment
+says "let w = 20 cm"
+run 0 fmt loose.garment
+run 0 fmt --check loose.garment
+run 3 fmt nobody.garment
+
+# ---- run
+run 0 run square.garment --no-pictures
+complains "at rest"
+complains "results in square/"
+for file in garment.obj garment.glb pattern.svg report.json; do exists square/$file; done
+absent square/drape.png
+no_leftovers square
+is_json square/report.json
+ok
+LC_ALL=C grep -q $'[\r\x1b]' err.txt && fail "piped progress holds carriage returns or escapes"
+run 0 run square.garment --no-pictures --json -o json_out
+is_json out.txt
+run 0 run square.garment --no-pictures -q -o quiet_out
+silent out.txt
+silent err.txt
+run 0 run square.garment -o pictures_out
+exists pictures_out/drape.png
+ok
+[ "$(head -c 4 pictures_out/drape.png | tail -c 3)" = PNG ] || fail "drape.png is no PNG"
+run 0 run square.garment --no-pictures --ply -p wide=12cm -o ply_out
+exists ply_out/garment.ply
+ok
+grep -q 'wide' ply_out/report.json || fail "the report does not tell the parameter that was set"
+
+# ---- the same bits for any number of threads, and again
+for threads in 1 2 4; do
+  run 0 run square.garment --no-pictures -q --threads $threads -o threads_$threads
+done
+hash=$(value_of state_sha256 threads_1/report.json)
+[ -n "$hash" ] || hash=$(value_of state_hash threads_1/report.json)
+ok
+[ ${#hash} -ge 16 ] || fail "report.json holds no state hash"
+for threads in 2 4; do
+  ok
+  grep -q "$hash" threads_$threads/report.json || fail "--threads $threads gives another state than --threads 1"
+  ok
+  cmp -s threads_1/garment.obj threads_$threads/garment.obj || fail "--threads $threads writes another garment.obj"
+done
+
+# ---- exit codes of a drape
+sed 's/expect penetrations == 0/expect strain(cloth) > 90%/' square.garment >expects.garment
+run 5 run expects.garment --no-pictures
+complains "G0331"
+exists expects/garment.obj
+run 4 run slow.garment --no-pictures --max-steps 1 -o hurried
+complains "error[G0802]"
+exists hurried/garment.obj
+is_json hurried/report.json
+sed 's/^drape.*/drape for 2 s/; /^expect/d' square.garment >timed.garment
+run 1 run timed.garment --no-pictures
+complains "error[G0804]"
+sed 's/^expect.*/save "cloth.obj"/' square.garment >saves.garment
+run 0 run saves.garment --no-pictures -o saves_out
+exists saves_out/cloth.obj
+sed 's/^expect.*/save "cloth.docx"/' square.garment >saves.garment
+run 1 check saves.garment
+complains "error[G0905]"
+
+# ---- places that cannot be written (also by root: a folder below a plain file)
+: >plain_file
+run 3 run square.garment --no-pictures -o plain_file/out
+complains "error[G0902]"
+complains "-o"
+ok
+[ "$(grep -c 'error\[' err.txt)" -eq 1 ] || fail "one unwritable folder is told more than once"
+ok
+[ -f plain_file ] && [ ! -s plain_file ] || fail "the plain file was changed"
+run 3 fmt plain_file/x.garment
+
+# ---- Ctrl-C: the state reached is written, the exit code says so
+"$program" run slow.garment --no-pictures --threads 1 -o stopped >out.txt 2>err.txt </dev/null &
+pid=$!
+sleep 1
+kill -INT $pid
+wait $pid
+code=$?
+ok
+[ $code -eq 130 ] || fail "SIGINT: returned $code, expected 130"
+exists stopped/garment.obj
+exists stopped/report.json
+is_json stopped/report.json
+no_leftovers stopped
+ok
+grep -q interrupted stopped/report.json || fail "the report does not say that the drape was interrupted"
+
+# ---- specifications
+cp "$2/tests/unit/io/fixtures/"*.json . 2>/dev/null
+spec=$(ls ./*.json 2>/dev/null | head -1)
+if [ -n "$spec" ]; then
+  run 1 run "$spec"
+  complains "error[G1002]"
+  run 0 import "$spec" -o imported.garment
+  exists imported.garment
+  run 3 import "$spec" -o imported.garment
+  complains "error[G0903]"
+  run 0 import "$spec" -o imported.garment --force
+  run 3 import "$spec" -o plain_file/imported.garment
+  complains "error[G0902]"
+  run 0 fmt --check imported.garment
+fi
+printf '{"pattern": [}' >broken.json
+run 1 import broken.json -o broken.garment
+complains "error[G0940]"
+absent broken.garment
+
+# ---- test
+mkdir -p goldens/check nothing
+printf '#! ok\nlet w = 3 cm\n' >goldens/check/fine.garment
+run 1 test goldens # no panels: one more diagnostic than was expected
+says "G0452"
+says "0 passed, 1 failed"
+printf 'let w = 3 cm\n#! error[G0305] 9-18 "between a length"\nlet v = 20 cm + 3\n' >goldens/check/fine.garment
+run 1 test goldens
+says "missing: line 3 error[G0305] 9-18"
+sed -i 's/9-18/9-17/' goldens/check/fine.garment
+run 0 test goldens
+says "1 passed, 0 failed"
+sed -i 's/error\[/warning[/' goldens/check/fine.garment
+run 1 test goldens
+mkdir -p goldens/parse
+printf 'let w = 3 cm\n' >goldens/parse/tree.garment
+rm goldens/check/fine.garment
+run 1 test goldens
+says "--update writes one"
+run 0 test goldens --update
+exists goldens/parse/tree.expected
+run 0 test goldens
+rm goldens/parse/tree.garment
+printf 'let w = 3 cm\n' >goldens/parse/other.garment
+run 1 test goldens
+says "has no script"
+run 3 test nothing
+complains "error[G0904]"
+run 3 test nowhere
+complains "error[G0904]"
+
+echo "$checks checks, $failures failures"
+[ $failures -eq 0 ]
