@@ -208,6 +208,8 @@ void clear_panels(const design::Garment& garment, const body::Body& body, const 
     Vector3d mean = mean_place(model, p, place);
     Vector3d normal = garment.panels[p].placement.rotation.col(2);
     if (normal.dot(mean - middle_beside(body, mean, is_sleeve(garment.panels[p]))) < 0) normal = -normal;
+    // Small parts of the body (an ear) could stand between particles: the gap grows with their spacing.
+    double gap = kPanelGap + 0.35 * garment.panels[p].resolution;
     double move = 0;
     for (Index v : own)
       while (move <= kMostPanelMove && distance(body, place[v] + move * normal) < kPanelGap)

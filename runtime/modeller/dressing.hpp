@@ -30,8 +30,8 @@ void follow_head(const design::Garment& garment, const body::Body& body, const m
                  std::vector<Eigen::Vector3d>& place);
 
 /// Moves rigidly placed panels along their normals, away from the middle of the part of the body they lie on,
-/// until none of their own particles (those no seam shares) is less than 5 mm outside, at most 12 cm; a panel
-/// that this does not free stays where it was.
+/// until none of their own particles (those no seam shares) is less than 5 mm (and a third of the grid's
+/// spacing) outside, at most 12 cm; a panel that this does not free stays where it was.
 void clear_panels(const design::Garment& garment, const body::Body& body, const model::Model& model,
                   std::vector<Eigen::Vector3d>& place);
 

@@ -17,32 +17,37 @@ using model::Index;
 
 constexpr double kReach = 0.3;     // m, how deep in the body a point may lie
 constexpr double kGap = 4e-3;      // m, to which what pierces is pushed out
-constexpr double kSample = 8e-3;   // m, between the points looked at on an edge
+constexpr double kSample = 8e-3;   // m, between the points looked at on a triangle
+constexpr int kMostSamples = 40;   // along an edge
 constexpr double kSideGap = 1e-3;  // m, of one leg's cloth from the middle
 constexpr int kMostPushes = 60;
 constexpr int kFollowSweeps = 4;       // Jacobi sweeps by which neighbours follow, after each push
 constexpr double kMostPerPush = 0.02;  // m
 
-/// Point at fraction `t` of an edge and the way it has to go.
+/// A point of a triangle, by its weights, and the way it has to go.
 struct Push {
-  Index a, b;
-  double t;
+  model::Indices<3> corner;
+  std::array<double, 3> weight;
   Vector3d way;
 };
 
 class Clearing {
  public:
   Clearing(const body::Body& body, model::Model& model)
-      : body_(body), x_(model.start), moved_(x_.size(), Vector3d::Zero()), neighbours_(x_.size()) {
+      : body_(body),
+        x_(model.start),
+        moved_(x_.size(), Vector3d::Zero()),
+        pushed_(x_.size(), false),
+        neighbours_(x_.size()) {
     std::set<std::array<Index, 2>> edges;
     for (std::size_t t = 0; t < model.n_triangles(); ++t) {
       auto c = model.corners(t);
+      triangles_.push_back(c);
       for (int k = 0; k < 3; ++k)
         if (c[k] != c[(k + 1) % 3])
           edges.insert({std::min(c[k], c[(k + 1) % 3]), std::max(c[k], c[(k + 1) % 3])});
     }
-    edges_.assign(edges.begin(), edges.end());
-    for (auto [a, b] : edges_) neighbours_[a].push_back(b), neighbours_[b].push_back(a);
+    for (auto [a, b] : edges) neighbours_[a].push_back(b), neighbours_[b].push_back(a);
     for (const char* name : {"leg.left", "leg.right"})
       if (auto leg = body.parts.find(name); leg != body.parts.end() && !leg->second.sections.empty())
         legs_.push_back(&leg->second);
@@ -50,7 +55,7 @@ class Clearing {
   }
 
   std::size_t go() {
-    std::vector<Push> pushes = find(0);
+    std::vector<Push> pushes = find(0.5 * kGap);
     for (int round = 0; round < kMostPushes && !pushes.empty(); ++round) {
       apply(pushes);
       pushes = find(0.5 * kGap);
@@ -59,27 +64,31 @@ class Clearing {
   }
 
  private:
-  /// Points closer to the body than `gap`, edge by edge.
+  /// Points closer to the body than `gap`, triangle by triangle.
   std::vector<Push> find(double gap) const {
-    constexpr std::size_t kGrain = 128;
-    std::vector<std::vector<Push>> found((edges_.size() + kGrain - 1) / kGrain);
-    parallel_for(edges_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t e = begin; e < end; ++e) look_at(edges_[e], gap, found[begin / kGrain]);
+    constexpr std::size_t kGrain = 64;
+    std::vector<std::vector<Push>> found((triangles_.size() + kGrain - 1) / kGrain);
+    parallel_for(triangles_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t t = begin; t < end; ++t) look_at(triangles_[t], gap, found[begin / kGrain]);
     });
     std::vector<Push> all;
     for (const auto& f : found) all.insert(all.end(), f.begin(), f.end());
     return all;
   }
 
-  void look_at(const std::array<Index, 2>& edge, double gap, std::vector<Push>& out) const {
-    Vector3d d = x_[edge[1]] - x_[edge[0]];
-    int n = std::max(1, static_cast<int>(d.norm() / kSample));
-    for (int i = 0; i <= n; ++i) {
-      double t = static_cast<double>(i) / n;
-      Vector3d p = x_[edge[0]] + t * d;
-      auto hit = body_.closest(p, kReach);
-      if (hit && hit->distance < gap) out.push_back({edge[0], edge[1], t, way_out(p, *hit)});
-    }
+  void look_at(const model::Indices<3>& c, double gap, std::vector<Push>& out) const {
+    const Vector3d &a = x_[c[0]], &b = x_[c[1]], &d = x_[c[2]];
+    double longest = std::max({(b - a).norm(), (d - b).norm(), (a - d).norm()});
+    auto middle = body_.closest((a + b + d) / 3, kReach);
+    if (!middle || middle->distance > longest + gap) return;
+    int n = std::clamp(static_cast<int>(longest / kSample), 1, kMostSamples);
+    for (int i = 0; i <= n; ++i)
+      for (int j = 0; i + j <= n; ++j) {
+        std::array<double, 3> w{double(n - i - j) / n, double(i) / n, double(j) / n};
+        Vector3d p = w[0] * a + w[1] * b + w[2] * d;
+        auto hit = body_.closest(p, kReach);
+        if (hit && hit->distance < gap) out.push_back({c, w, way_out(p, *hit)});
+      }
   }
 
   Vector3d way_out(const Vector3d& p, const body::SurfacePoint& hit) const {
@@ -111,25 +120,28 @@ class Clearing {
     return std::nullopt;
   }
 
-  /// Ends of edges take what their points need (the least motion that does it), the mean over all points.
+  /// Corners take what the points of their triangles need (the least motion that does it), the mean over all
+  /// points.
   void apply(const std::vector<Push>& pushes) {
     std::vector<Vector3d> sum(x_.size(), Vector3d::Zero());
     std::vector<double> weight(x_.size(), 0);
     for (const Push& p : pushes) {
-      double wa = 1 - p.t, wb = p.t, scale = 1 / (wa * wa + wb * wb);
-      sum[p.a] += wa * wa * scale * p.way, weight[p.a] += wa;
-      sum[p.b] += wb * wb * scale * p.way, weight[p.b] += wb;
+      double scale = 0;
+      for (double w : p.weight) scale += w * w;
+      for (int k = 0; k < 3; ++k) {
+        sum[p.corner[k]] += p.weight[k] * p.weight[k] / scale * p.way;
+        weight[p.corner[k]] += p.weight[k];
+      }
     }
     std::vector<Vector3d> step(x_.size(), Vector3d::Zero());
-    std::vector<bool> pushed(x_.size(), false);
     for (std::size_t i = 0; i < x_.size(); ++i)
-      if (weight[i] > 0) step[i] = sum[i] / weight[i], pushed[i] = true;
+      if (weight[i] > 0) step[i] = sum[i] / weight[i], pushed_[i] = true;
     std::vector<Vector3d> before = moved_;
     for (std::size_t i = 0; i < x_.size(); ++i) moved_[i] += step[i];
     for (int sweep = 0; sweep < kFollowSweeps; ++sweep) {
       std::vector<Vector3d> next = moved_;
       for (std::size_t i = 0; i < x_.size(); ++i) {
-        if (pushed[i] || neighbours_[i].empty()) continue;
+        if (pushed_[i] || neighbours_[i].empty()) continue;
         Vector3d mean = Vector3d::Zero();
         for (Index j : neighbours_[i]) mean += moved_[j];
         next[i] += 0.5 * (mean / static_cast<double>(neighbours_[i].size()) - moved_[i]);
@@ -138,7 +150,7 @@ class Clearing {
     }
     for (std::size_t i = 0; i < x_.size(); ++i) {
       x_[i] += moved_[i] - before[i];
-      if (pushed[i]) keep_side(i);
+      if (weight[i] > 0) keep_side(i);
     }
   }
 
@@ -170,8 +182,9 @@ class Clearing {
   const body::Body& body_;
   std::vector<Vector3d>& x_;
   std::vector<Vector3d> moved_;  ///< since the beginning, m
+  std::vector<bool> pushed_;     ///< ever: what was pushed out does not follow others back in
   std::vector<std::vector<Index>> neighbours_;
-  std::vector<std::array<Index, 2>> edges_;
+  std::vector<model::Indices<3>> triangles_;
   std::vector<const body::Part*> legs_;
   std::vector<int> side_;
   double middle_ = 0, top_ = -1e300;  ///< x between the legs, y of their upper ends, m

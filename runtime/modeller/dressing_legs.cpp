@@ -13,10 +13,12 @@ namespace {
 using Eigen::Vector3d;
 using model::Index;
 
-constexpr double kCrotchGap = 0.02;    // m, below the crotch of the body
-constexpr double kMostLowering = 0.2;  // m
-constexpr double kMostAside = 0.12;    // m, of a crotch point from the middle of the body
-constexpr double kTurned = 0.14;       // rad, from which a leg counts as drawn for another pose
+constexpr double kCrotchGap = 0.02;  // m, below the crotch of the body
+constexpr double kMostAway = 0.3;    // m, of a crotch point from the crotch of the body, up and down
+constexpr double kLegGap = 0.01;     // m, that cloth of two legs needs between the thighs
+constexpr double kLowestPart = 0.2;  // m, below the crotch; legs that part lower down are not waited for
+constexpr double kMostAside = 0.12;  // m, of a crotch point from the middle of the body
+constexpr double kTurned = 0.14;     // rad, from which a leg counts as drawn for another pose
 
 /// The four ends that meet at the crotch: panels of the left and of the right, of the front and of the back.
 struct Crotch {
@@ -47,7 +49,7 @@ Crotch find_crotch(const design::Garment& garment, const model::Model& model,
   for (std::size_t i = 0; i < model.n_particles(); ++i) {
     if (held[i][0] + held[i][1] + held[i][2] + held[i][3] < 4) continue;
     Vector3d p = sum[i] / count[i];
-    if (std::abs(p.x() - middle.x()) > kMostAside || std::abs(p.y() - middle.y()) > kMostLowering) continue;
+    if (std::abs(p.x() - middle.x()) > kMostAside || std::abs(p.y() - middle.y()) > kMostAway) continue;
     if (found >= 0 && p.y() >= crotch.height) continue;
     crotch.height = p.y();
     found = static_cast<Index>(i);
@@ -57,6 +59,21 @@ Crotch find_crotch(const design::Garment& garment, const model::Model& model,
   for (std::size_t v = 0; v < model.n_vertices(); ++v)
     if (model.vertex_particle[v] == found) crotch.leg[model.vertex_panel[v]] = true;
   return crotch;
+}
+
+/// Height below which the legs stand at least kLegGap apart; `fallback` where they never do.
+double part_height(const body::Part& left, const body::Part& right, double fallback) {
+  for (std::size_t k = 0; k < std::min(left.sections.size(), right.sections.size()); ++k) {
+    auto inner = [k](const body::Part& leg, double side) {
+      const body::Section& s = leg.sections[k];
+      double least = 1e300;
+      for (const Eigen::Vector2d& q : s.hull)
+        least = std::min(least, side * (s.center + q.x() * s.u + q.y() * s.v).x());
+      return side * least;
+    };
+    if (inner(left, 1) - inner(right, -1) >= kLegGap) return left.sections[k].center.y();
+  }
+  return fallback;
 }
 
 /// Angle in the plane (x, y) from the downward direction towards +x.
@@ -92,8 +109,9 @@ void follow_legs(const design::Garment& garment, const body::Body& body, const m
       place[v] = pivot + Vector3d(c * d.x() - s * d.y(), s * d.x() + c * d.y(), d.z());
     }
   }
-  double lower = std::max(0.0, find_crotch(garment, model, place, middle).height - (middle.y() - kCrotchGap));
-  if (lower > kMostLowering) return;
+  double target = part_height(left->second, right->second, middle.y() - kCrotchGap);
+  target = std::clamp(target, middle.y() - kLowestPart, middle.y() - kCrotchGap);
+  double lower = std::max(0.0, find_crotch(garment, model, place, middle).height - target);
   for (std::size_t v = 0; v < model.n_vertices(); ++v)
     if (crotch.leg[model.vertex_panel[v]]) place[v].y() -= lower;
 }
