@@ -212,8 +212,7 @@ void clear_panels(const design::Garment& garment, const body::Body& body, const 
     double gap = kPanelGap + 0.35 * garment.panels[p].resolution;
     double move = 0;
     for (Index v : own)
-      while (move <= kMostPanelMove && distance(body, place[v] + move * normal) < kPanelGap)
-        move += kPanelStep;
+      while (move <= kMostPanelMove && distance(body, place[v] + move * normal) < gap) move += kPanelStep;
     if (move > 0 && move <= kMostPanelMove)
       for_vertices(model, p, [&](Index v) { place[v] += move * normal; });
   }
