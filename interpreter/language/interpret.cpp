@@ -149,6 +149,13 @@ Interpretation interpret(grammar::Sources& sources, grammar::SourceId source, Ho
     program.has_error = true;
   }
   sort_parameters(program);
+  // As a reader meets them: top to bottom, the script before its libraries.
+  std::stable_sort(program.diagnostics.begin(), program.diagnostics.end(),
+                   [](const Diagnostic& a, const Diagnostic& b) {
+                     if (a.labels.empty() || b.labels.empty()) return !a.labels.empty() && b.labels.empty();
+                     const Span &x = a.labels[0].span, &y = b.labels[0].span;
+                     return x.source != y.source ? x.source < y.source : x.begin < y.begin;
+                   });
   for (const PanelInfo& info : program.panels) program.garment.panels.push_back(info.panel);
   for (const SeamInfo& info : program.seams)
     if (info.ready) program.garment.seams.push_back(info.seam);
