@@ -120,16 +120,13 @@ std::string label_of(const Expr& call, std::size_t k) {
   fail(program, message.help(hint));
 }
 
-Value call_declared(Program& program, const Declaration& function, const Expr& expr, Scope& scope) {
-  CallGuard guard(program, expr.span);
+/// Puts the arguments of a call, and the defaults of what is not given, into the scope of the function.
+[[gnu::noinline]] void bind_arguments(Program& program, const Declaration& function, const Expr& expr,
+                                      Scope& scope, Scope& local) {
   const Statement& statement = *function.statement;
   const std::vector<FormalParameter> parameters = parameters_of(program, statement.operands[0]);
   std::vector<std::string> names;
   for (const FormalParameter& parameter : parameters) names.push_back(parameter.name);
-  Scope local;
-  local.parent = function.scope;
-  local.module = function.module;
-  local.half = scope.half;
   std::size_t next = 0;
   for (std::size_t k = 1; k < expr.children.size(); ++k) {
     std::string name = label_of(expr, k);
@@ -158,13 +155,23 @@ Value call_declared(Program& program, const Declaration& function, const Expr& e
                          checked_kind(program, parameter, eval(program, *parameter.standard, local),
                                       parameter.standard->span));
   }
-  Value result = eval(program, statement.clauses[0].values[0], local);
+}
+
+[[gnu::noinline]] Value call_declared(Program& program, const Declaration& function, const Expr& expr,
+                                      Scope& scope) {
+  CallGuard guard(program, expr.span);
+  Scope local;
+  local.parent = function.scope;
+  local.module = function.module;
+  local.half = scope.half;
+  bind_arguments(program, function, expr, scope, local);
+  Value result = eval(program, function.statement->clauses[0].values[0], local);
   if (local.half_used)
     for (const Scope* at = &scope; at != nullptr; at = at->parent) at->half_used = true;
   return result;
 }
 
-Value edge_at(Program& program, const Expr& expr, const EdgeValue& edge, Scope& scope) {
+[[gnu::noinline]] Value edge_at(Program& program, const Expr& expr, const EdgeValue& edge, Scope& scope) {
   if (edge.spans.size() != 1 || expr.children.size() != 2)
     fail(program,
          Message("G0307", "`at` takes one position on one edge", expr.span).help("as in `edge.at(5 cm)`"));

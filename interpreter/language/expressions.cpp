@@ -5,9 +5,28 @@
 namespace garment::interpreter {
 namespace {
 
-constexpr int kMaxDepth = 1500;  // nested evaluations; keeps the stack of the process out of danger
+// Nested evaluations. With every case of eval in a frame of its own a level takes 1 to 2 KB of stack, several
+// times that under the address sanitizer.
+constexpr int kMaxDepth = 1000;
 constexpr std::size_t kMaxText = 1 << 20;
 constexpr std::size_t kMaxList = 1 << 20;
+
+[[noreturn]] [[gnu::noinline]] void fail_depth(Program& program, Span span) {
+  fail(program, Message("G0316", "the evaluation is nested more than 1000 deep", span)
+                    .help("write the recursion or the chain of definitions less deep"));
+}
+
+[[gnu::noinline]] Value eval_not(Program& program, const Expr& expr, Scope& scope) {
+  return Value{!eval_truth(program, expr.children[0], scope, "`not`")};
+}
+
+[[gnu::noinline]] bool condition_holds(Program& program, const Expr& expr, Scope& scope) {
+  return eval_truth(program, expr.children[0], scope, "`if`");
+}
+
+[[noreturn]] [[gnu::noinline]] void fail_missing(Program& program, const Expr& expr) {
+  fail(program, Message("G0306", "a value is missing here", expr.span));
+}
 
 struct DepthGuard {
   Program& program;
@@ -15,15 +34,14 @@ struct DepthGuard {
     count_step(p, span);
     if (++p.depth <= kMaxDepth) return;
     --p.depth;
-    fail(p, Message("G0316", "the evaluation is nested more than 1500 deep", span)
-                .help("write the recursion or the chain of definitions less deep"));
+    fail_depth(p, span);
   }
   DepthGuard(const DepthGuard&) = delete;
   DepthGuard& operator=(const DepthGuard&) = delete;
   ~DepthGuard() { --program.depth; }
 };
 
-Value eval_number(Program& program, const Expr& expr) {
+[[gnu::noinline]] Value eval_number(Program& program, const Expr& expr) {
   const auto unit = find_unit(expr.unit);
   if (!unit)
     fail(program, Message("G0308", "`" + expr.unit + "` is no unit", expr.unit_span)
@@ -36,7 +54,7 @@ Value eval_number(Program& program, const Expr& expr) {
   return number_value(value, unit->dimension, unit->percent);
 }
 
-Value eval_string(Program& program, const Expr& expr, Scope& scope) {
+[[gnu::noinline]] Value eval_string(Program& program, const Expr& expr, Scope& scope) {
   if (expr.children.empty()) return Value{expr.text};
   std::string text;
   for (const Expr& child : expr.children) {
@@ -52,7 +70,7 @@ Value eval_string(Program& program, const Expr& expr, Scope& scope) {
   return Value{text};
 }
 
-Value eval_name(Program& program, const Expr& expr, Scope& scope) {
+[[gnu::noinline]] Value eval_name(Program& program, const Expr& expr, Scope& scope) {
   const std::string name = name_of(program, expr, scope);
   if (const Value* local = find_local(scope, name)) return *local;
   if (Declaration* declaration = find_declaration(scope, name))
@@ -65,7 +83,7 @@ Value eval_name(Program& program, const Expr& expr, Scope& scope) {
   fail_unknown_name(program, name, expr.span, scope);
 }
 
-Value eval_point_literal(Program& program, const Expr& expr, Scope& scope) {
+[[gnu::noinline]] Value eval_point_literal(Program& program, const Expr& expr, Scope& scope) {
   PointValue point;
   point.size = static_cast<int>(expr.children.size());
   if (point.size != 2 && point.size != 3)
@@ -95,13 +113,13 @@ Value eval_point_literal(Program& program, const Expr& expr, Scope& scope) {
   return Value{point};
 }
 
-Value eval_list(Program& program, const Expr& expr, Scope& scope) {
+[[gnu::noinline]] Value eval_list(Program& program, const Expr& expr, Scope& scope) {
   auto list = std::make_shared<std::vector<Value>>();
   for (const Expr& child : expr.children) list->push_back(eval(program, child, scope));
   return Value{ListValue(list)};
 }
 
-Value eval_record(Program& program, const Expr& expr, Scope& scope) {
+[[gnu::noinline]] Value eval_record(Program& program, const Expr& expr, Scope& scope) {
   auto fields = std::make_shared<RecordFields>();
   for (std::size_t k = 0; k < expr.children.size() && k < expr.labels.size(); ++k) {
     for (std::size_t j = 0; j < k; ++j)
@@ -113,7 +131,7 @@ Value eval_record(Program& program, const Expr& expr, Scope& scope) {
   return Value{RecordValue(fields)};
 }
 
-Value eval_range(Program& program, const Expr& expr, Scope& scope) {
+[[gnu::noinline]] Value eval_range(Program& program, const Expr& expr, Scope& scope) {
   RangeValue range;
   const Value from = eval(program, expr.children[0], scope), to = eval(program, expr.children[1], scope);
   const auto *a = from.as<Quantity>(), *b = to.as<Quantity>();
@@ -130,7 +148,7 @@ Value eval_range(Program& program, const Expr& expr, Scope& scope) {
   return Value{range};
 }
 
-Value eval_index(Program& program, const Expr& expr, Scope& scope) {
+[[gnu::noinline]] Value eval_index(Program& program, const Expr& expr, Scope& scope) {
   const Value base = eval(program, expr.children[0], scope);
   const auto* list = base.as<ListValue>();
   if (list == nullptr)
@@ -146,7 +164,7 @@ Value eval_index(Program& program, const Expr& expr, Scope& scope) {
   return (**list)[static_cast<std::size_t>(q.value) - 1];
 }
 
-Value eval_binary(Program& program, const Expr& expr, Scope& scope) {
+[[gnu::noinline]] Value eval_binary(Program& program, const Expr& expr, Scope& scope) {
   if (expr.text == "and" || expr.text == "or") {
     const bool a = eval_truth(program, expr.children[0], scope, "`" + expr.text + "`");
     if (a == (expr.text == "or")) return Value{a};
@@ -183,7 +201,7 @@ Value eval(Program& program, const Expr& expr, Scope& scope) {
     case ExprKind::call:
       return eval_call(program, expr, scope);
     case ExprKind::unary:
-      if (expr.text == "not") return Value{!eval_truth(program, expr.children[0], scope, "`not`")};
+      if (expr.text == "not") return eval_not(program, expr, scope);
       return apply_unary(program, expr, eval(program, expr.children[0], scope));
     case ExprKind::binary:
       return eval_binary(program, expr, scope);
@@ -198,10 +216,9 @@ Value eval(Program& program, const Expr& expr, Scope& scope) {
     case ExprKind::point:
       return eval_point_literal(program, expr, scope);
     case ExprKind::conditional:
-      return eval(program, expr.children[eval_truth(program, expr.children[0], scope, "`if`") ? 1 : 2],
-                  scope);
+      return eval(program, expr.children[condition_holds(program, expr, scope) ? 1 : 2], scope);
     case ExprKind::none:
-      fail(program, Message("G0306", "a value is missing here", expr.span));
+      fail_missing(program, expr);
     case ExprKind::error:
       throw Stop{};  // the parser has said it
   }

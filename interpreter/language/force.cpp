@@ -18,15 +18,24 @@ Span name_span(const Declaration& declaration) {
   return statement.name ? statement.name->span : statement.keyword.span;
 }
 
-Value evaluate(Program& program, Declaration& declaration) {
-  const Statement& statement = *declaration.statement;
-  const std::string& keyword = statement.keyword.text;
-  if (keyword == "let" || keyword == "measure") {
-    Clauses clauses(program, statement, *declaration.scope);
-    const Expr& expr = clauses.value(clauses.need("="));
-    clauses.finish();
-    return eval(program, expr, *declaration.scope);
-  }
+[[gnu::noinline]] const Expr& defining_value(Program& program, const Declaration& declaration) {
+  Clauses clauses(program, *declaration.statement, *declaration.scope);
+  const Expr& expr = clauses.value(clauses.need("="));
+  clauses.finish();
+  return expr;
+}
+
+[[noreturn]] [[gnu::noinline]] void fail_no_value(Program& program, const Declaration& declaration) {
+  fail(program,
+       Message("G0306",
+               "`" + declaration.name + "` is a " + declaration.statement->keyword.text + " and has no value",
+               name_span(declaration)));
+}
+
+[[gnu::noinline]] Value evaluate(Program& program, Declaration& declaration) {
+  const std::string& keyword = declaration.statement->keyword.text;
+  if (keyword == "let" || keyword == "measure")
+    return eval(program, defining_value(program, declaration), *declaration.scope);
   if (keyword == "param") return evaluate_param(program, declaration);
   if (keyword == "fn") {
     check_function(program, declaration);
@@ -37,11 +46,11 @@ Value evaluate(Program& program, Declaration& declaration) {
   if (keyword == "panel") return evaluate_panel(program, declaration);
   if (keyword == "seam") return evaluate_seam(program, declaration);
   if (keyword == "pin") return evaluate_pin(program, declaration);
-  fail(program, Message("G0306", "`" + declaration.name + "` is a " + keyword + " and has no value",
-                        name_span(declaration)));
+  fail_no_value(program, declaration);
 }
 
-[[noreturn]] void fail_cycle(Program& program, const Declaration& declaration, Span asked_at) {
+[[noreturn]] [[gnu::noinline]] void fail_cycle(Program& program, const Declaration& declaration,
+                                               Span asked_at) {
   const auto first = std::find(program.running.begin(), program.running.end(), &declaration);
   std::string path;
   for (auto at = first; at != program.running.end(); ++at) path += '`' + (*at)->name + "` -> ";
