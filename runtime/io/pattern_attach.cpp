@@ -13,6 +13,8 @@ namespace {
 using design::Attachment;
 using design::EdgePart;
 
+constexpr double kShoulder = 0.1;  // m, above the bust: what reaches there lies on the shoulders
+
 const char* level_of_label(const std::string& label) {
   if (label == "lower_interface") return "waist";
   if (label == "strapless_top") return "bust";
@@ -56,16 +58,28 @@ std::vector<Attachment> guess_attachments(const design::Garment& garment, const 
                                           PatternReport& report) {
   GarmentPlace place = garment_place(garment);
   std::vector<bool> labelled(place.piece_low.size());
+  std::vector<bool> hangs(place.piece_low.size());
+  for (std::size_t piece = 0; piece < hangs.size(); ++piece)
+    hangs[piece] = place.piece_high[piece] > bust_height(frame) + kShoulder;
+  bool left_out = false;
   std::map<std::string, std::vector<EdgePart>> by_level;
   for (std::size_t p = 0; p < labels.size(); ++p)
     for (std::size_t e = 0; e < labels[p].size(); ++e)
       if (const char* level = level_of_label(labels[p][e])) {
+        // What hangs from the shoulders has its waist where it was drawn, which need not be the waist of the
+        // body.
+        if (hangs[place.panels[p].piece] && std::string_view(level) == "waist") {
+          left_out = true;
+          continue;
+        }
         by_level[level].push_back(whole_edge(garment, p, e));
         labelled[place.panels[p].piece] = true;
       }
   for (const auto& [level, parts] : by_level)
     report.note(fmt::format("attached to the {} by labels: {}", level, list_of(garment, parts)));
 
+  if (left_out)
+    report.note("hangs from the shoulders, so not attached to the waist, whatever its labels say");
   std::vector<EdgePart> guessed;
   for (std::size_t piece = 0; piece < labelled.size(); ++piece) {
     if (labelled[piece] || place.piece_high[piece] > bust_height(frame)) continue;
