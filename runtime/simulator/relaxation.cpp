@@ -15,8 +15,11 @@ using Vectors = std::vector<Vector3d>;
 
 constexpr double kLargestTimeStep = 2.0;   // s
 constexpr double kSmallestTimeStep = 1e-4; // s
-constexpr double kLinearTolerance = 0.1;  // folds move on: solving the linear system better does not save steps
+constexpr double kLinearTolerance = 0.03;
 constexpr int kLinearIterations = 200;
+constexpr int kForesights = 2;             // times that the contacts of one step are revised
+constexpr double kForeseenDepth = 2e-5;    // m
+constexpr int kHalvings = 4;               // of a step that would raise the energy
 constexpr double kHoldSpeed = 5e-3;        // m per step towards a hold's place
 constexpr double kBodySearch = 0.25;       // m, how deep inside a body a particle may start
 
@@ -106,7 +109,7 @@ void Relaxation::find_pushes_of(std::size_t b, const Vectors& x) {
       Vector3d normal = hit->normal;
       double gap = (x[i] - hit->point).norm();
       if (gap > 1e-6) normal = (x[i] - hit->point) / (hit->distance < 0 ? -gap : gap);
-      found_[i] = {i, normal, normal.dot(hit->point), offset, std::sqrt(body.friction * model_.friction[i])};
+      found_[i] = {i, normal, normal.dot(hit->point), offset, std::sqrt(body.friction * model_.friction[i]), false};
     }
   });
   for (const Push& p : found_)
@@ -152,7 +155,7 @@ double Relaxation::total_energy(const Vectors& x, std::vector<Contact>& contacts
   return energy(x) + contact_energy_sum(contacts) + push_energy(x) + friction_.energy(x);
 }
 
-/// Forces of cloth on cloth (from contacts_), and with `with_stiffness` their second derivatives.
+/// Forces of cloth on cloth, and with `with_stiffness` their second derivatives.
 void Relaxation::add_contacts(Vectors& force, bool with_stiffness) {
   if (with_stiffness) stiffness_.clear();
   const Index n = mesh_.n_particles;
@@ -237,13 +240,12 @@ bool Relaxation::move_held(const Vectors& x, Vectors& dx) const {
   return moved;
 }
 
-StepReport Relaxation::step(Vectors& x) {
-  StepReport report;
+/// Forces, matrix and what bodies bear at x. Returns the energy that the line search compares with.
+double Relaxation::assemble(const Vectors& x, StepReport& report) {
   refresh_candidates(x);
   find_pushes(x);
   find_contacts(x, contacts_);
   report.contacts = contacts_.size();
-
   double elastic = elastic_.energy_force_hessian(x, force_, matrix_);
   add_external_forces(x, force_);
   collect_normal_forces(x);
@@ -254,55 +256,94 @@ StepReport Relaxation::step(Vectors& x) {
   friction_.add_force(x, force_, &matrix_);
   holds_.filter(force_);
   report.energy = elastic + gravity_energy(x);
-  double before = report.energy + contact_energy_sum(contacts_) + push_energy(x) + friction_.energy(x);
-
   for (std::size_t i = 0; i < x.size(); ++i) matrix_.add_diagonal(i, model_.mass[i] / (time_step_ * time_step_));
-  LinearResult linear = linear_.solve(matrix_, stiffness_, force_, kLinearTolerance, kLinearIterations, dx_);
-  report.linear_iterations = linear.iterations;
-  report.newton_step = largest(dx_);
-  report.time_step = time_step_;
+  return report.energy + contact_energy_sum(contacts_) + push_energy(x) + friction_.energy(x);
+}
 
-  double predicted = 0;  // decrease of the energy that the quadratic model promises, at least half of f . dx
-  for (std::size_t i = 0; i < x.size(); ++i) predicted += force_[i].dot(dx_[i]);
-  bool driven = move_held(x, dx_);
-  if (!tangle_.empty()) {
-    untangle_displacements(mesh_, no_bodies(), x, tangle_, untangle_);
-    for (std::size_t i = 0; i < x.size(); ++i) dx_[i] += holds_.filtered(i, untangle_[i]);
-    driven = true;
+/// dx_ from the linear system. A particle just off a body feels nothing of it, and the system would send it inside: who
+/// would be pressed after the step is counted as touching, and the system is solved again (active set).
+void Relaxation::solve_step(const Vectors& x, StepReport& report) {
+  for (int round = 0;; ++round) {
+    report.linear_iterations +=
+        linear_.solve(matrix_, stiffness_, force_, kLinearTolerance, kLinearIterations, dx_, &x).iterations;
+    if (round == kForesights) return;
+    std::size_t fresh = 0;
+    for (Push& p : pushes_) {
+      double depth = p.offset - (p.normal.dot(x[p.particle]) - p.plane);
+      if (depth > 0 || p.foreseen || depth - p.normal.dot(dx_[p.particle]) < kForeseenDepth) continue;
+      p.foreseen = true;
+      ++fresh;
+      matrix_.add_diagonal(p.particle, Matrix3d(push_stiffness_ * p.normal * p.normal.transpose()));
+      force_[p.particle] += holds_.filtered(p.particle, Vector3d(push_stiffness_ * depth * p.normal));
+    }
+    if (fresh == 0) return;
   }
+}
+
+/// Adds to dx_ what holds and tangles ask for; true when the energy may rise for it.
+bool Relaxation::drive(const Vectors& x) {
+  bool driven = move_held(x, dx_);
+  if (tangle_.empty()) return driven;
+  untangle_displacements(mesh_, no_bodies(), x, tangle_, untangle_);
+  for (std::size_t i = 0; i < x.size(); ++i) dx_[i] += holds_.filtered(i, untangle_[i]);
+  return true;
+}
+
+/// Bounds dx_: at most one cell, and nothing that starts an intersection.
+TruncateStats Relaxation::keep_apart(const Vectors& x) {
   double stride = largest(dx_);
   if (stride > spacing_)  // farther than a cell the linear picture of the folds says nothing
     for (Vector3d& d : dx_) d *= spacing_ / stride;
-  TruncateStats cut = truncate(mesh_, candidates_, x, dx_);
+  return truncate(mesh_, candidates_, x, dx_);
+}
+
+/// Goes along dx_ to trial_, as far as the energy does not rise (unless driven); returns the energy there.
+double Relaxation::search(const Vectors& x, double before, bool driven, StepReport& report) {
+  trial_.resize(x.size());
+  double after = 0;
+  auto go = [&] {
+    for (std::size_t i = 0; i < x.size(); ++i) trial_[i] = x[i] + report.scale * dx_[i];
+    after = total_energy(trial_, trial_contacts_);
+    return driven || !(after > before + 1e-10 * std::abs(before) + 1e-12);
+  };
+  bool well = go();
+  for (int k = 0; k < kHalvings && !well; ++k) {
+    report.scale *= 0.5;
+    well = go();
+  }
+  report.accepted = well && std::isfinite(after);
+  return after;
+}
+
+StepReport Relaxation::step(Vectors& x) {
+  StepReport report;
+  report.time_step = time_step_;
+  double before = assemble(x, report);
+  solve_step(x, report);
+  report.newton_step = largest(dx_);
+  double predicted = 0;  // decrease of the energy that the quadratic model promises, at least half of f . dx
+  for (std::size_t i = 0; i < x.size(); ++i) predicted += force_[i].dot(dx_[i]);
+  bool driven = drive(x);
+  TruncateStats cut = keep_apart(x);
   report.limited = cut.limited;
   report.out_of_reach = cut.out_of_reach;
 
-  trial_.resize(x.size());
-  double scale = 1, after = 0;
-  for (int attempt = 0;; ++attempt, scale *= 0.5) {
-    for (std::size_t i = 0; i < x.size(); ++i) trial_[i] = x[i] + scale * dx_[i];
-    after = total_energy(trial_, trial_contacts_);
-    if (driven || !(after > before + 1e-10 * std::abs(before) + 1e-12)) break;
-    if (attempt == 4) {
-      report.accepted = false;
-      break;
-    }
-  }
-  if (!report.accepted || !std::isfinite(after)) {
-    report.accepted = false;
+  double after = search(x, before, driven, report);
+  if (!report.accepted) {
     time_step_ = std::max(kSmallestTimeStep, time_step_ / 4);
     return report;
   }
-  report.scale = scale;
-  report.largest_motion = scale * largest(dx_);
+  report.largest_motion = report.scale * largest(dx_);
   recent_motion_ = std::max(report.largest_motion, 0.7 * recent_motion_);
-  if (cut.out_of_reach > 0) recent_motion_ = std::min(2 * recent_motion_, spacing_ / 2);
+  if (cut.out_of_reach > 0) {
+    recent_motion_ = std::min(2 * recent_motion_, spacing_ / 2);
+    have_candidates_ = false;
+  }
   x.swap(trial_);
   friction_.follow(x);
-  if (cut.out_of_reach > 0) have_candidates_ = false;
   double gain = before - after;
-  if (scale < 1 || gain < 0.1 * predicted)
-    time_step_ = std::max(kSmallestTimeStep, time_step_ * (scale < 0.5 ? 0.4 : 0.8));
+  if (report.scale < 1 || gain < 0.1 * predicted)
+    time_step_ = std::max(kSmallestTimeStep, time_step_ * (report.scale < 0.5 ? 0.4 : 0.8));
   else if (gain > 0.3 * predicted)
     time_step_ = std::min(kLargestTimeStep, time_step_ * 1.5);
   return report;

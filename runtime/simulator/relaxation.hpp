@@ -13,6 +13,7 @@
 #include "runtime/simulator/elastic.hpp"
 #include "runtime/simulator/friction.hpp"
 #include "runtime/simulator/linear_solver.hpp"
+#include "runtime/simulator/truncate.hpp"
 #include "runtime/simulator/untangle.hpp"
 
 namespace garment::simulator {
@@ -72,6 +73,7 @@ class Relaxation {
     double plane;   // signed distance of x is normal . x - plane
     double offset;
     double friction;
+    bool foreseen = false;  // not pressed yet, but the step would press it
   };
   struct Sounding {  // the last distance query of a particle against one body
     Eigen::Vector3d at{0, 0, 0};
@@ -90,6 +92,11 @@ class Relaxation {
   void collect_normal_forces(const std::vector<Eigen::Vector3d>& x);
   void add_contacts(std::vector<Eigen::Vector3d>& force, bool with_stiffness);
   void add_pushes(const std::vector<Eigen::Vector3d>& x);
+  double assemble(const std::vector<Eigen::Vector3d>& x, StepReport& report);
+  void solve_step(const std::vector<Eigen::Vector3d>& x, StepReport& report);
+  bool drive(const std::vector<Eigen::Vector3d>& x);
+  TruncateStats keep_apart(const std::vector<Eigen::Vector3d>& x);
+  double search(const std::vector<Eigen::Vector3d>& x, double before, bool driven, StepReport& report);
   double residual_of(std::vector<Eigen::Vector3d>& force) const;
   bool move_held(const std::vector<Eigen::Vector3d>& x, std::vector<Eigen::Vector3d>& dx) const;
   double rms_over_weight(const std::vector<Eigen::Vector3d>& force) const;
