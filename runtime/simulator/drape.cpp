@@ -211,7 +211,7 @@ class Way {
   }
 
   bool rests(const StepReport& step, double target) const {
-    if (steps_in_stage_ < 2 || step.residual > target) return false;
+    if (steps_in_stage_ < 2 || !(step.residual <= target)) return false;
     if (d_.settings.settle == Settle::preview) return true;
     return step.time_step >= kRestTimeStep && step.newton_step < kRestStep;
   }

@@ -17,6 +17,7 @@ constexpr double kLargestTimeStep = 2.0;   // s
 constexpr double kSmallestTimeStep = 1e-4; // s
 constexpr double kLinearTolerance = 0.03;
 constexpr int kLinearIterations = 200;
+constexpr double kRounding = 1e-10;        // share of the energy that sums of it may be off
 constexpr int kForesights = 2;             // times that the contacts of one step are revised
 constexpr double kForeseenDepth = 2e-5;    // m
 constexpr int kHalvings = 4;               // of a step that would raise the energy
@@ -304,7 +305,7 @@ double Relaxation::search(const Vectors& x, double before, bool driven, StepRepo
   auto go = [&] {
     for (std::size_t i = 0; i < x.size(); ++i) trial_[i] = x[i] + report.scale * dx_[i];
     after = total_energy(trial_, trial_contacts_);
-    return driven || !(after > before + 1e-10 * std::abs(before) + 1e-12);
+    return driven || !(after > before + kRounding * std::abs(before) + 1e-12);
   };
   bool well = go();
   for (int k = 0; k < kHalvings && !well; ++k) {
@@ -342,7 +343,10 @@ StepReport Relaxation::step(Vectors& x) {
   x.swap(trial_);
   friction_.follow(x);
   double gain = before - after;
-  if (report.scale < 1 || gain < 0.1 * predicted)
+  bool below_rounding = predicted < kRounding * std::abs(before);  // then the gain says nothing
+  if (below_rounding && report.scale == 1)
+    time_step_ = std::min(kLargestTimeStep, time_step_ * 1.5);
+  else if (report.scale < 1 || gain < 0.1 * predicted)
     time_step_ = std::max(kSmallestTimeStep, time_step_ * (report.scale < 0.5 ? 0.4 : 0.8));
   else if (gain > 0.3 * predicted)
     time_step_ = std::min(kLargestTimeStep, time_step_ * 1.5);
