@@ -35,6 +35,11 @@ void follow_head(const design::Garment& garment, const body::Body& body, const m
 void clear_panels(const design::Garment& garment, const body::Body& body, const model::Model& model,
                   std::vector<Eigen::Vector3d>& place);
 
+/// Moves rigidly placed panels that lie in one plane, touch, and are not sewn to each other (the fronts of an
+/// open jacket) 1 cm apart each: edges that coincide would cut one another as soon as they move.
+void part_panels(const design::Garment& garment, const model::Model& model,
+                 std::vector<Eigen::Vector3d>& place);
+
 /// Seams bring their particles to the mean of the places of their panels; here the rest of each rigidly
 /// placed panel follows, less the farther it lies from the seam (about 8 cm), so that no row of cells takes
 /// the whole way.

@@ -336,6 +336,8 @@ bool place_panels(const design::Garment& garment, const std::vector<body::Body>&
   bool any_rigid = std::any_of(garment.panels.begin(), garment.panels.end(), [](const design::Panel& p) {
     return p.placement.kind == Placement::Kind::rigid;
   });
+  bool any_person =
+      std::any_of(bodies.begin(), bodies.end(), [](const body::Body& b) { return !b.parts.empty(); });
   if (any_rigid)
     for (const body::Body& b : bodies) {
       follow_arms(garment, b, model, w.place);
@@ -343,8 +345,9 @@ bool place_panels(const design::Garment& garment, const std::vector<body::Body>&
       follow_legs(garment, b, model, w.place);
       clear_panels(garment, b, model, w.place);
     }
+  if (any_rigid && any_person) part_panels(garment, model, w.place);
   ok = ok && place_from_seams(w);
-  if (any_rigid && ok && std::any_of(bodies.begin(), bodies.end(), [](const body::Body& b) { return !b.parts.empty(); }))
+  if (any_rigid && any_person && ok)
     spread_seams(garment, model, w.place);
   average_shared(w.place, model);
   if (any_rigid && ok)

@@ -160,6 +160,22 @@ TEST_CASE("what is clear of the body stays where it was put") {
     CHECK(with.model->start[i] == without.model->start[i]);
 }
 
+TEST_CASE("fronts drawn edge to edge move apart, sewn ones stay together") {
+  design::Garment g;
+  g.fabrics = {test::cloth()};
+  g.panels = {test::rectangle("left", 0.2, 0.3, 0.02), test::rectangle("right", 0.2, 0.3, 0.02, {-0.2, 0})};
+  for (design::Panel& p : g.panels) lay(p, {0, 1, 0.5});
+  auto inner = [&](const model::Model& m) {
+    double right = -1, left = 1;
+    for (const Vector3d& p : points_of(m, {"right"})) right = std::max(right, p.x());
+    for (const Vector3d& p : points_of(m, {"left"})) left = std::min(left, p.x());
+    return left - right;
+  };
+  CHECK(inner(build(g)) == Approx(0.02));
+  g.seams = {test::seam("middle", {test::whole(g, 0, 3)}, {test::whole(g, 1, 1, true)})};
+  CHECK(inner(build(g)) == Approx(0).margin(1e-12));
+}
+
 TEST_CASE("a start in the body is cleared the same way on any number of threads, and counted") {
   model::Model m = build(tee());
   const body::Body& body = test::woman()[0];
