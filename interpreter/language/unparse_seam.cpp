@@ -29,10 +29,11 @@ void turn_round(Parts& parts) {
   for (EdgePart& part : parts) std::swap(part.from, part.to);
 }
 
-std::string chain(const design::Garment& garment, const Names& names, const Parts& parts, bool sense) {
+/// Links in the order written, each counter-clockwise unless it has a minus.
+std::string chain(const design::Garment& garment, const Names& names, const Parts& parts) {
   std::string text;
   for (std::size_t i = 0; i < parts.size(); ++i)
-    text += fmt::format("{}{}{}", i > 0 ? " + " : "", with_loop(garment, parts[i]) == sense ? "" : "-",
+    text += fmt::format("{}{}{}", i > 0 ? " + " : "", with_loop(garment, parts[i]) ? "" : "-",
                         edge_part(garment, names, parts[i]));
   return text;
 }
@@ -68,10 +69,12 @@ std::string seam(const design::Garment& garment, const Names& names, std::size_t
   std::string text = fmt::format("seam {}:", names.seams[index]);
   for (std::size_t i = 0; i < sides.size(); ++i) {
     if (sides[i].empty()) continue;
-    bool sense = with_loop(garment, sides[i][0]);
-    text += fmt::format("{} {}", i > 0 ? " to" : "", chain(garment, names, sides[i], sense));
+    // Later sides are written with their loops too, and the seam runs them from the end to the start.
+    bool reversed = i > 0 && with_loop(garment, sides[i][0]);
+    if (i > 0 && !reversed) turn_round(sides[i]);
+    text += fmt::format("{} {}", i > 0 ? " to" : "", chain(garment, names, sides[i]));
     if (i + 1 < sides.size() && i < seam.ratio.size()) text += relation(seam.ratio[i]);
-    if (i > 0 && sense) text += " reversed";
+    if (reversed) text += " reversed";
   }
   return text;
 }

@@ -14,8 +14,8 @@ namespace garment::interpreter::text {
 namespace {
 
 constexpr std::string_view kExpressionWords[] = {
-    "all", "and",  "bodies", "draped", "else", "end",   "fabrics", "false", "for", "if", "in",
-    "is",  "left", "minus",  "not",    "or",   "right", "start",   "true",  "x",   "y",  "z"};
+    "all", "and", "bodies", "draped", "else", "end",   "fabrics", "false", "for", "if",
+    "in",  "is",  "minus",  "not",    "or",   "start", "true",    "x",     "y",   "z"};
 constexpr std::string_view kPanelWords[] = {"left", "right", "start", "end", "middle", "at", "resolution"};
 
 template <std::size_t n>
