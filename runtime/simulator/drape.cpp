@@ -129,6 +129,7 @@ class Way {
     if (d.settings.self_collision) relaxation_.set_tangle(find_tangle(relaxation_.mesh(), no_bodies(), d.x));
     if (d.settings.near_rest) {
       enter(Stage::settling);
+      relaxation_.set_time_step(kRestTimeStep);
       return;
     }
     relaxation_.set_tensile_scale(kSoftTensile);
