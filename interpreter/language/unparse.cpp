@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "interpreter/language/unparse_seam.hpp"
@@ -96,9 +97,9 @@ class Unparser {
     std::vector<std::string> statements;
     for (std::size_t i = 0; i < garment_.bodies.size(); ++i)
       statements.push_back(text::body(names_.bodies[i], garment_.bodies[i]));
-    if (!options_.body.empty())
-      for (const std::string& name : names_.undeclared_bodies)
-        statements.push_back(fmt::format("body {} = {}", name, options_.body));
+    for (const std::string& name : names_.undeclared_bodies)
+      statements.push_back(options_.body.empty() ? fmt::format("# body {} = mesh(\"body.obj\")", name)
+                                                 : fmt::format("body {} = {}", name, options_.body));
     for (std::size_t i = 0; i < garment_.fabrics.size(); ++i)
       statements.push_back(i == 0 && !options_.fabric.empty()
                                ? fmt::format("fabric {} = {}", names_.fabrics[i], options_.fabric)
@@ -178,15 +179,24 @@ class Unparser {
         statement += " offset " + text::length(place.offset);
         break;
     }
-    line(statement);
+    line_about(place.body, statement);
+  }
+
+  /// A script that speaks of a body it does not declare would be refused: such a line is written as a
+  /// comment.
+  void line_about(const std::string& body, const std::string& words) {
+    const std::vector<std::string>& missing = names_.undeclared_bodies;
+    bool undeclared =
+        options_.body.empty() && std::find(missing.begin(), missing.end(), body) != missing.end();
+    line((undeclared ? "# " : "") + words);
   }
 
   void write_attachment(const design::Attachment& attachment) {
     std::string edges;
     for (const design::EdgePart& part : attachment.parts)
       edges += (edges.empty() ? "" : ", ") + text::edge_part(garment_, names_, part);
-    line(fmt::format("attach {} to {}.{} {}", edges, body_called(attachment.body), attachment.level,
-                     attachment.slide ? "slide" : "hold"));
+    line_about(attachment.body, fmt::format("attach {} to {}.{} {}", edges, body_called(attachment.body),
+                                            attachment.level, attachment.slide ? "slide" : "hold"));
   }
 
   const design::Garment& garment_;

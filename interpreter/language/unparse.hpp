@@ -11,7 +11,8 @@ struct UnparseOptions {
   std::string title;                  ///< empty: the garment's own
   std::vector<std::string> comments;  ///< lines at the top, without `#`
   /// Right side of `body NAME = ...` for the bodies that attachments and placements name and the garment does
-  /// not declare: `mesh("body.obj")`, `bodies.woman(size: 40)`. Empty: they stay undeclared.
+  /// not declare: `mesh("body.obj")`, `bodies.woman(size: 40)`. Empty: what speaks of them is written
+  /// as comments, to be taken up once a body is declared.
   std::string body;
   std::string fabric;  ///< right side of the first fabric's statement; empty: all its figures
   std::vector<std::string> acts = {"drape until rest"};  ///< last lines

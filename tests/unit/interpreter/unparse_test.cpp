@@ -284,6 +284,20 @@ TEST_CASE("panels with everything on them come back") {
   CHECK(near(back.pins[0].point, {0.1, 0.1}));
 }
 
+TEST_CASE("without a body, what speaks of it is a comment") {
+  design::Garment garment = two_rectangles();
+  garment.panels[0].placement.kind = design::Placement::Kind::around;
+  garment.panels[0].placement.body = "form";
+  garment.panels[0].placement.part = "torso";
+  garment.attachments.push_back({"", {}, {{1, 2, 0, 0.4}}, "form", "waist", true});
+  std::string script = interpreter::unparse(garment);
+  CHECK(script.find("\n# body form = mesh(\"body.obj\")\n") != std::string::npos);
+  CHECK(script.find("\n# place one around form.torso offset 1 cm\n") != std::string::npos);
+  CHECK(script.find("\n# attach two.upper to form.waist slide\n") != std::string::npos);
+  CHECK(formatted(script) == script);
+  CHECK(read_back(script).panels.size() == 2);
+}
+
 TEST_CASE("fabrics and bodies come back with all their figures") {
   design::Garment garment = two_rectangles();
   design::Fabric& fabric = garment.fabrics[0];
