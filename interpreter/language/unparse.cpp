@@ -39,7 +39,9 @@ std::string curve_clause(const geometry::Curve& curve) {
 class Unparser {
  public:
   Unparser(const design::Garment& garment, const UnparseOptions& options)
-      : garment_(garment), options_(options), names_(text::make_names(garment)) {}
+      : garment_(garment),
+        options_(options),
+        names_(text::make_names(garment, options.body.empty() ? std::string() : options.body_name)) {}
 
   std::string write() {
     write_head();

@@ -11,9 +11,11 @@ struct UnparseOptions {
   std::string title;                  ///< empty: the garment's own
   std::vector<std::string> comments;  ///< lines at the top, without `#`
   /// Right side of `body NAME = ...` for the bodies that attachments and placements name and the garment does
-  /// not declare: `mesh("body.obj")`, `bodies.woman(size: 40)`. Empty: what speaks of them is written
-  /// as comments, to be taken up once a body is declared.
+  /// not declare: `mesh("body.obj")`, `bodies.woman(size: 40)`; a garment without any body gets it as
+  /// `body_name`. Empty: what speaks of such bodies is written as comments, to be taken up once a body is
+  /// declared.
   std::string body;
+  std::string body_name = "form";
   std::string fabric;  ///< right side of the first fabric's statement; empty: all its figures
   std::vector<std::string> acts = {"drape until rest"};  ///< last lines
 };

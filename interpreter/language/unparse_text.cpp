@@ -87,7 +87,7 @@ std::string fresh_name(std::string_view name, std::string_view fallback, std::se
   return candidate;
 }
 
-Names make_names(const design::Garment& garment) {
+Names make_names(const design::Garment& garment, const std::string& also_body) {
   Names names;
   std::set<std::string> taken;
   for (const design::Body& body : garment.bodies)
@@ -95,6 +95,9 @@ Names make_names(const design::Garment& garment) {
   std::vector<std::string> used;
   for (const design::Attachment& attachment : garment.attachments) used.push_back(attachment.body);
   for (const design::Panel& panel : garment.panels) used.push_back(panel.placement.body);
+  if (garment.bodies.empty() &&
+      std::all_of(used.begin(), used.end(), [](const auto& n) { return n.empty(); }))
+    used.push_back(also_body);
   for (const std::string& name : used) {
     auto same = [&](const design::Body& body) { return body.name == name; };
     bool declared = std::any_of(garment.bodies.begin(), garment.bodies.end(), same);

@@ -39,6 +39,7 @@ struct Names {
   std::vector<std::vector<std::string>> edges, darts, notches;  ///< [panel][edge] and so on
   std::vector<std::string> undeclared_bodies;                   ///< named by attachments or placements only
 };
-Names make_names(const design::Garment& garment);
+/// `also_body` is a body to be declared though nothing names it; empty: none.
+Names make_names(const design::Garment& garment, const std::string& also_body = {});
 
 }  // namespace garment::interpreter::text

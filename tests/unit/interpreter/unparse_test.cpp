@@ -200,8 +200,10 @@ TEST_CASE("a printed garment has the shape of a written one") {
   garment.panels[0].edges[0].free = true;
   garment.seams.push_back(
       {"side", {}, {{{}, {{0, 1, 0, 0.6}}, false}, {{}, {{1, 3, 0.6, 0}}, false}}, {1, 1}});
-  std::string script =
-      interpreter::unparse(garment, {"", {"from a file"}, "", "fabrics.denim", {"drape until rest"}});
+  interpreter::UnparseOptions as_denim;
+  as_denim.comments = {"from a file"};
+  as_denim.fabric = "fabrics.denim";
+  std::string script = interpreter::unparse(garment, as_denim);
   CHECK(script.starts_with(
       "# from a file\n\ngarment 1 \"pair\"\nuse fabrics\n\nfabric cloth = fabrics.denim\n\n"
       "panel one of cloth {\n  outline from (0, 0) {\n    edge lower to (40 cm, 0) free\n"));
@@ -296,6 +298,15 @@ TEST_CASE("without a body, what speaks of it is a comment") {
   CHECK(script.find("\n# attach two.upper to form.waist slide\n") != std::string::npos);
   CHECK(formatted(script) == script);
   CHECK(read_back(script).panels.size() == 2);
+}
+
+TEST_CASE("a given body is declared though nothing hangs on it") {
+  design::Garment garment = two_rectangles();
+  garment.panels[0].name = "form";  // the body comes first: the panel gives way
+  design::Garment back = read_back(interpreter::unparse(garment, with_body()));
+  REQUIRE(back.bodies.size() == 1);
+  CHECK(back.bodies[0].name == "form");
+  CHECK(back.panels[0].name == "form_1");
 }
 
 TEST_CASE("fabrics and bodies come back with all their figures") {
