@@ -115,6 +115,13 @@ ExitCode import_pattern(const ImportOptions& options, Host& host, Terminal& term
   interpreter::UnparseOptions unparse_options;
   unparse_options.title = pattern_options.title;
   if (!options.body.empty()) {
+    design::Body declared;
+    declared.name = pattern_options.body;
+    declared.shape = design::MeshFile{std::filesystem::absolute(options.body).string(), 1};
+    body::BodyResult built = body::build_body(declared, host, "");
+    show(interpreter::to_diagnostics(built.findings, origins), sources, terminal);
+    if (!built.body) return kDiagnostics;
+    share_frame(*pattern.garment, pattern.frame, *built.body);
     std::error_code error;
     std::filesystem::path relative = std::filesystem::proximate(options.body, folder_of(out), error);
     unparse_options.body = fmt::format("mesh(\"{}\")", error ? options.body : relative.string());

@@ -38,15 +38,6 @@ double height_of(const body::Body& body) {
   return high - lowest_point(body);
 }
 
-/// Specifications of the older format are drawn in a space whose origin is the pelvis; a body that stands on the floor
-/// needs the garment raised, and the other way round.
-void share_frame(design::Garment& garment, io::PatternFrame frame, const body::Body& body) {
-  bool body_on_floor = lowest_point(body) > -0.3 * height_of(body);
-  double shift = io::pelvis_shift(height_of(body));
-  if (frame == io::PatternFrame::pelvis && body_on_floor) io::move_garment(garment, {0, shift, 0});
-  if (frame == io::PatternFrame::floor && !body_on_floor) io::move_garment(garment, {0, -shift, 0});
-}
-
 ExitCode load_pattern(Project& project, const ProjectOptions& options, const std::string& text, Host& host,
                       Terminal& terminal) {
   project.is_pattern = true;
@@ -81,6 +72,13 @@ ExitCode load_pattern(Project& project, const ProjectOptions& options, const std
 }
 
 }  // namespace
+
+void share_frame(design::Garment& garment, io::PatternFrame frame, const body::Body& body) {
+  bool body_on_floor = lowest_point(body) > -0.3 * height_of(body);
+  double shift = io::pelvis_shift(height_of(body));
+  if (frame == io::PatternFrame::pelvis && body_on_floor) io::move_garment(garment, {0, shift, 0});
+  if (frame == io::PatternFrame::floor && !body_on_floor) io::move_garment(garment, {0, -shift, 0});
+}
 
 grammar::Diagnostic plain_error(std::string code, std::string message, std::string help) {
   grammar::Diagnostic d;

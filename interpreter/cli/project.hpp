@@ -9,6 +9,7 @@
 #include "interpreter/cli/terminal.hpp"
 #include "interpreter/language/interpret.hpp"
 #include "runtime/base/host.hpp"
+#include "runtime/io/pattern_json.hpp"
 
 namespace garment::cli {
 
@@ -30,6 +31,10 @@ struct Project {
 
 /// Reads and evaluates. Prints what is wrong; returns kOk when the garment can be used (warnings are no obstacle).
 ExitCode load(Project& project, const ProjectOptions& options, Host& host, Terminal& terminal);
+
+/// Raises or lowers an imported garment into the space of its body: specifications of the older format are drawn about
+/// the pelvis, bodies may stand on the floor, and the other way round.
+void share_frame(design::Garment& garment, io::PatternFrame frame, const body::Body& body);
 
 /// Prints diagnostics in the chosen form. With `--json` they go to standard output.
 void show(const grammar::Diagnostics& diagnostics, const grammar::Sources& sources, Terminal& terminal);
