@@ -88,7 +88,19 @@ struct Run {
     code = std::max(code, exit_code_of(report.drape.status));
   }
 
+  /// A question before any drape would be answered from the flat start, and pass.
+  bool refuse_before_drape(const interpreter::Act& act, const char* keyword) {
+    if (draped) return false;
+    grammar::Diagnostic d = plain_error("G0325", fmt::format("`{}` stands before any `drape`, so there is nothing to ask", keyword),
+                                        "write `drape until rest` above it");
+    d.labels.push_back({act.span, ""});
+    show({d}, project.sources, terminal);
+    code = kDiagnostics;
+    return true;
+  }
+
   void expect(const interpreter::Act& act) {
+    if (refuse_before_drape(act, "expect")) return;
     DrapeAnswers answers(project.result.garment, project.result.bodies, model, state, report.drape);
     interpreter::ExpectResult r = interpreter::evaluate_expect(project.result, act, answers);
     show(r.diagnostics, project.sources, terminal);
@@ -97,6 +109,7 @@ struct Run {
   }
 
   void measure(const interpreter::Act& act) {
+    if (refuse_before_drape(act, "measure")) return;
     DrapeAnswers answers(project.result.garment, project.result.bodies, model, state, report.drape);
     interpreter::MeasureResult r = interpreter::evaluate_measure(project.result, act, answers);
     show(r.diagnostics, project.sources, terminal);

@@ -55,7 +55,6 @@ class Relaxation {
   /// Elastic and gravity energy at x, J.
   double energy(const std::vector<Eigen::Vector3d>& x) const;
 
-  double body_offset() const { return settings_.body_offset; }
   void set_gravity_scale(double scale) { settings_.gravity_scale = scale; }
   void set_tensile_scale(double scale) { elastic_.set_tensile_scale(scale); }
   void set_time_step(double seconds) { time_step_ = seconds; }
