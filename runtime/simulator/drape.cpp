@@ -27,6 +27,7 @@ constexpr double kNearRest = 1;             // residual from which the body is l
 constexpr int kRepairEvery = 10;            // steps between two looks at the body
 constexpr double kFirstTimeStep = 1.0 / 60; // s
 constexpr double kRestStep = 0.5e-3;        // m, largest Newton step of a garment at rest
+constexpr double kExactGive = 2e-7;         // m, of friction where the drape is to be exact
 constexpr double kRestTimeStep = 0.25;      // s, the step is judged with little regularisation only
 constexpr int kMostRefused = 12;            // steps in a row
 constexpr int kMostRepairs = 12;            // times that a garment at rest may still pierce a body
@@ -186,6 +187,7 @@ class Way {
   static RelaxationSettings relaxation_settings(const Drape& d) {
     RelaxationSettings settings;
     settings.self_collision = d.settings.self_collision;
+    if (d.settings.settle == Settle::exact) settings.friction_give = kExactGive;
     return settings;
   }
 

@@ -10,6 +10,7 @@ using Eigen::Vector3d;
 
 namespace {
 constexpr double kAtLimit = 0.99;   // share of the limit from which a spring counts as slipping
+constexpr double kLeastStiffness = 1e-3; // N/m
 constexpr double kSlipShare = 0.01; // of the stiffness that is left along the slip, so that the matrix stays definite
 }  // namespace
 
@@ -39,6 +40,7 @@ void BodyFriction::freeze(const std::vector<Vector3d>& x) {
     }
     t.normal = t.sum / n;
     t.limit = n * t.weighted_mu / t.total;
+    t.stiffness = std::clamp(t.limit / give_, kLeastStiffness, most_stiffness_);
     if (!t.anchored) t.anchor = x[i];
     t.anchored = true;
     active_.push_back(static_cast<std::uint32_t>(i));
@@ -49,8 +51,8 @@ double BodyFriction::energy(const std::vector<Vector3d>& x) const {
   double sum = 0;
   for (std::uint32_t i : active_) {
     const Touch& t = touch_[i];
-    double u = slip(t, x[i]).norm(), sticking = t.limit / stiffness_;
-    sum += u <= sticking ? stiffness_ / 2 * u * u : t.limit * (u - sticking / 2);
+    double u = slip(t, x[i]).norm(), sticking = t.limit / t.stiffness;
+    sum += u <= sticking ? t.stiffness / 2 * u * u : t.limit * (u - sticking / 2);
   }
   return sum;
 }
@@ -60,10 +62,10 @@ void BodyFriction::add_force(const std::vector<Vector3d>& x, std::vector<Vector3
     const Touch& t = touch_[i];
     Vector3d u = slip(t, x[i]);
     double size = u.norm();
-    double stiffness = stiffness_ * size <= t.limit ? stiffness_ : t.limit / size;
+    double stiffness = t.stiffness * size <= t.limit ? t.stiffness : t.limit / size;
     // A spring at its limit that is still pulled gives no more resistance along the slip: the solver must not see any,
     // or sliding takes hundreds of steps.
-    bool slips = stiffness_ * size >= kAtLimit * t.limit && size > 0 && force[i].dot(u) > t.limit * size;
+    bool slips = t.stiffness * size >= kAtLimit * t.limit && size > 0 && force[i].dot(u) > t.limit * size;
     force[i] -= stiffness * u;
     if (!matrix) continue;
     Matrix3d plane = Matrix3d::Identity() - t.normal * t.normal.transpose();
@@ -90,8 +92,8 @@ void BodyFriction::follow(const std::vector<Vector3d>& x) {
     Touch& t = touch_[i];
     Vector3d u = slip(t, x[i]);
     double size = u.norm();
-    if (stiffness_ * size <= t.limit) continue;
-    t.anchor = x[i] - u * (t.limit / stiffness_ / size);
+    if (t.stiffness * size <= t.limit) continue;
+    t.anchor = x[i] - u * (t.limit / t.stiffness / size);
   }
 }
 

@@ -56,7 +56,8 @@ Relaxation::Relaxation(const model::Model& model, const std::vector<body::Body>&
       matrix_(elastic_.make_matrix()),
       linear_(matrix_.pattern(), holds_),
       mesh_(model, no_bodies(), ContactOptions{settings.self_collision, settings.self_offset, 0}),
-      friction_(model.n_particles(), settings.body_stiffness * mean_edge(model) * mean_edge(model)),
+      friction_(model.n_particles(), settings.friction_give,
+                settings.body_stiffness * mean_edge(model) * mean_edge(model)),
       extra_offset_(model.n_particles(), 0) {
   soundings_.assign(bodies.size(), std::vector<Sounding>(model.n_particles()));
   spacing_ = mean_edge(model);

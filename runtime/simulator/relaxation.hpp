@@ -24,6 +24,7 @@ struct RelaxationSettings {
   double self_offset = 0.6e-3;      ///< m, least contact distance of cloth with cloth
   double contact_stiffness = 200;   ///< N/m, cloth against cloth
   double body_stiffness = 1e7;      ///< N/m per m^2 of cloth, body against cloth
+  double friction_give = 3e-4;      ///< m, by which a contact with a body gives way before it slips
   double gravity_scale = 1;
 };
 

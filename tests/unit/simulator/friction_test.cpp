@@ -23,7 +23,7 @@ constexpr double kSticks = kLimit / kStiffness;  // 8 mm of tangential motion
 
 /// One particle, pressed along `normal`, anchored at the origin.
 BodyFriction pressed(const Vector3d& normal = Vector3d::UnitY()) {
-  BodyFriction f(1, kStiffness);
+  BodyFriction f(1, 1e-9, kStiffness);
   f.begin_step();
   f.add_normal_force(0, kNormalForce * normal, kMu);
   f.freeze({Vector3d::Zero()});
@@ -99,7 +99,7 @@ TEST_CASE("the anchor follows a particle that slips, to where the force is just 
 }
 
 TEST_CASE("several contacts on a particle add up, and mu is their mean by force") {
-  BodyFriction f(3, kStiffness);
+  BodyFriction f(3, 1e-9, kStiffness);
   f.begin_step();
   f.add_normal_force(1, {0, 3, 0}, 0.2);
   f.add_normal_force(1, {0, 1, 0}, 0.6);
