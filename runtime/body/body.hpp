@@ -24,7 +24,8 @@ struct TriangleMesh {
 /// Closest point of the surface.
 struct SurfacePoint {
   Vector3d point;
-  Vector3d normal;      ///< outward, unit; smooth (angle-weighted) at edges and vertices
+  Vector3d normal;      ///< outward, unit; angle-weighted at edges and vertices, so that it tells the sign of `distance`
+  Vector3d push;        ///< outward, unit: where to push; turns continuously where the surface is smooth, facets or not
   double distance = 0;  ///< signed: negative inside
   int triangle = -1;
 };
@@ -56,6 +57,10 @@ class Body {
 
   /// Closest point of the surface within `max_distance` of `p`; nothing if it is farther away.
   std::optional<SurfacePoint> closest(const Vector3d& p, double max_distance) const;
+  /// Where else the surface faces `p` within `radius`: places that are nearer to `p` than the surface around them, seen from
+  /// outside, in directions well apart from one another's and from that of `nearest` (which `closest` gave). In a crotch or
+  /// between two thighs one nearest place does not tell what a particle must keep away from. Replaces `out`, nearest first.
+  void facing(const Vector3d& p, double radius, const SurfacePoint& nearest, std::vector<SurfacePoint>& out) const;
   /// Generalised winding number, about 1 inside, 0 outside; overlapping bodies give 2 and so on.
   double winding(const Vector3d& p) const;
   bool inside(const Vector3d& p) const { return winding(p) >= 0.5; }

@@ -228,6 +228,7 @@ void build_index(Body& body) {
   Flattener(body.mesh, *index).run();
   make_normals(body.mesh, *index);
   make_far(*index);
+  make_smooth(body.mesh, *index);
   mark_covered(body, *index);
 }
 
@@ -267,10 +268,7 @@ std::optional<SurfacePoint> Body::closest(const Vector3d& p, double max_distance
         stack.push_back({node.child[side], distance2[side]});
   }
   if (!hit) return std::nullopt;
-  SurfacePoint result{at.point, index->normals[hit->triangle][static_cast<int>(at.feature)], std::sqrt(best),
-                      hit->triangle};
-  if ((p - at.point).dot(result.normal) < 0) result.distance = -result.distance;
-  return result;
+  return surface_point(*index, *hit, at, p);
 }
 
 double Body::winding(const Vector3d& p) const {

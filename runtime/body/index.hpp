@@ -50,8 +50,18 @@ struct Body::Index {
   std::vector<Far> far;                          ///< [nodes]
   std::vector<Leaf> leaves;                      ///< [triangles]
   std::vector<std::array<Vector3d, 7>> normals;  ///< [triangles] by Feature, angle-weighted, unit
+  std::vector<std::array<Vector3d, 3>> smooth;   ///< [triangles] normals of the corners, not averaged over sharp edges
+  std::vector<std::uint8_t> sharp;               ///< [triangles] bit k: feature k is sharp
+  std::vector<int> valence;                      ///< [vertices] triangles that meet there
   double length = 0;                             ///< diagonal of the box of the body, m
 };
+
+/// Computes `smooth`, `sharp` and `valence`.
+void make_smooth(const TriangleMesh& mesh, Body::Index& index);
+
+/// The surface at a point of a triangle, as seen from p.
+SurfacePoint surface_point(const Body::Index& index, const Body::Index::Leaf& leaf, const TrianglePoint& at,
+                           const Vector3d& p);
 
 /// Sets `covered` on triangles whose outer side lies inside another part (a scanned hand that sinks into the
 /// hip): they are no surface to touch, a particle near them would be pushed deeper in. All else of `index`

@@ -8,14 +8,13 @@
 namespace garment::simulator {
 
 /// One contact. Gap vector g = sum_k w[k] x(p[k]); distance d = |g|; normal n = g / d.
-///   energy              multiplicity * E(d)
-///   force on point k   -multiplicity * E'(d) w[k] n     (E' < 0: repulsion; bodies take no force)
-///   Hessian block k,l   multiplicity * E''(d) w[k] w[l] n nT   (SPD part)
+///   energy              share * E(d)
+///   force on point k   -share * E'(d) w[k] n     (E' < 0: repulsion; bodies take no force)
+///   Hessian block k,l   share * E''(d) w[k] w[l] n nT   (SPD part)
 ///
-/// multiplicity: a distance to a surface is smooth only if shared edges and corners are counted once, so
-/// parts that two triangles share are taken off again where both count (inclusion and exclusion; Li et al.
-/// 2023, Convergent incremental potential contact). It is 1 nearly always, -1 near concave edges and near the
-/// ends of edge-edge contacts: such a contact enters energy and force, and is left out of an SPD Hessian.
+/// share: 1 for a point against a triangle, whichever part of the triangle is nearest, so that nothing jumps where that
+/// changes; from 0 to 1 for edges, full where they cross in their middles. Shares are kept through one step: its energy is
+/// then smooth, and its forces are the energy's gradient.
 struct Contact {
   Indices<4> p{-1, -1, -1,
                -1};           ///< points; VT: v, a, b, c; EE: a, b, c, d; -1 with w = 0 where fewer take part
@@ -24,16 +23,16 @@ struct Contact {
   double distance = 0;        ///< m
   double contact_distance = 0;  ///< m, > distance
   double friction = 0;          ///< Coulomb: geometric mean of both sides
-  double multiplicity = 1;
+  double share = 1;             ///< (0, 1]
   bool body = false;  ///< one side is a body (its points have ids >= n_particles)
   Index pair = -1;    ///< in Candidates::pairs()
 };
 
 /// All contacts with distance < contact distance among the pairs that are not exempt; sorted by pair.
 /// Complete while `candidates.valid(x)`. Same result for any thread count. Overwrites `out`, keeps its
-/// memory.
+/// memory. `shares` [candidates.pairs(), 0: not active], when given, stand for those that x would ask for.
 void active_contacts(const ContactMesh& mesh, const Candidates& candidates, const std::vector<Vector3d>& x,
-                     std::vector<Contact>& out);
+                     std::vector<Contact>& out, const std::vector<float>* shares = nullptr);
 
 /// Contact energy E and derivatives at distance d for contact distance r and stiffness k (N/m):
 ///   r/2 <= d < r   k/2 (r - d)^2

@@ -25,7 +25,8 @@ DrapeReport drape_levels(const std::vector<model::Model>& coarse, const model::M
       report.steps = steps;
       return report;
     }
-    if (report.status != DrapeStatus::at_rest && report.status != DrapeStatus::not_settled) continue;
+    // What a coarse cloth cuts off a body the finer one mends; what it ties into knots stays tied.
+    if (report.status == DrapeStatus::diverged || report.self_intersections > 0) continue;
     from = &level;
     positions = std::move(on_level.position);
   }

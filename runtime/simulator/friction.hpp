@@ -3,6 +3,7 @@
 // spring that slips when it carries more than mu N (return mapping; design "physics", section 2: a velocity
 // regularisation would creep).
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -42,9 +43,12 @@ class BodyFriction {
  private:
   struct Touch {
     Eigen::Vector3d anchor{0, 0, 0}, sum{0, 0, 0}, normal{0, 0, 0};
-    double weighted_mu = 0, total = 0, limit = 0, stiffness = 0;  // limit = mu N
+    std::array<Eigen::Vector3d, 3> pressing;  // directions of the normal forces, the first n_pressing
+    int n_pressing = 0;
+    double weighted_mu = 0, total = 0, bearable = 0, limit = 0, stiffness = 0;  // bearable = mu N
     bool anchored = false;
   };
+  Eigen::Vector3d left_by(const Touch& t, Eigen::Vector3d f, std::size_t i, const Holds& holds) const;
   Eigen::Vector3d slip(const Touch& t, const Eigen::Vector3d& x) const {
     Eigen::Vector3d u = x - t.anchor;
     return u - u.dot(t.normal) * t.normal;

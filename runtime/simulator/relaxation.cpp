@@ -19,10 +19,9 @@ constexpr double kLinearTolerance = 0.03;
 constexpr int kLinearIterations = 200;
 constexpr double kRounding = 1e-10;        // share of the energy that sums of it may be off
 constexpr int kForesights = 1;             // times that the contacts of one step are revised
-constexpr double kForeseenDepth = 2e-5;    // m
 constexpr int kHalvings = 4;               // of a step that would raise the energy
+constexpr double kLeastStep = 1e-3;        // share of a step that walls would turn
 constexpr double kHoldSpeed = 5e-3;        // m per step towards a hold's place
-constexpr double kBodySearch = 0.25;       // m, how deep inside a body a particle may start
 
 const std::vector<body::Body>& no_bodies() {
   static const std::vector<body::Body> none;
@@ -49,19 +48,15 @@ double largest(const Vectors& v) {
 Relaxation::Relaxation(const model::Model& model, const std::vector<body::Body>& bodies,
                        const RelaxationSettings& settings)
     : model_(model),
-      bodies_(bodies),
       settings_(settings),
       elastic_(model),
       holds_(model),
       matrix_(elastic_.make_matrix()),
       linear_(matrix_.pattern(), holds_),
       mesh_(model, no_bodies(), ContactOptions{settings.self_collision, settings.self_offset, 0}),
-      friction_(model.n_particles(), settings.friction_give,
-                settings.body_stiffness * mean_edge(model) * mean_edge(model)),
-      extra_offset_(model.n_particles(), 0) {
-  soundings_.assign(bodies.size(), std::vector<Sounding>(model.n_particles()));
+      bodies_(model, bodies, mean_edge(model), settings.body),
+      friction_(model.n_particles(), settings.friction_give, bodies_.stiffness()) {
   spacing_ = mean_edge(model);
-  push_stiffness_ = settings.body_stiffness * spacing_ * spacing_;
   recent_motion_ = spacing_ / 2;
   double sum = 0;
   for (double m : model.mass) sum += m * m * model.gravity.squaredNorm();
@@ -85,60 +80,24 @@ void Relaxation::refresh_candidates(const Vectors& x) {
   }
 }
 
-void Relaxation::find_pushes(const Vectors& x) {
-  pushes_.clear();
-  for (std::size_t b = 0; b < bodies_.size(); ++b) find_pushes_of(b, x);
-}
-
-/// Distance falls by no more than the way moved, so a particle that was far away need not be asked again until it may
-/// have come near; one that was near is searched for only as far as it can have gone.
-void Relaxation::find_pushes_of(std::size_t b, const Vectors& x) {
-  const body::Body& body = bodies_[b];
-  std::vector<Sounding>& soundings = soundings_[b];
-  found_.resize(x.size());
-  parallel_for(x.size(), 256, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      double offset = settings_.body_offset + extra_offset_[i] + mesh_.half_thickness[i];
-      found_[i].offset = 0;
-      Sounding& last = soundings[i];
-      double moved = last.known ? (x[i] - last.at).norm() : 0;
-      if (last.known && last.distance - moved > 2 * offset) continue;
-      double reach = last.known ? std::min(kBodySearch, std::abs(last.distance) + moved + 1e-6) : kBodySearch;
-      auto hit = body.closest(x[i], reach);
-      if (!hit && reach < kBodySearch) hit = body.closest(x[i], kBodySearch);
-      last = {x[i], hit ? hit->distance : kBodySearch, true};
-      if (!hit || hit->distance >= 2 * offset) continue;
-      Vector3d normal = hit->normal;
-      double gap = (x[i] - hit->point).norm();
-      if (gap > 1e-6) normal = (x[i] - hit->point) / (hit->distance < 0 ? -gap : gap);
-      found_[i] = {i, normal, normal.dot(hit->point), offset, std::sqrt(body.friction * model_.friction[i]), false};
-    }
-  });
-  for (const Push& p : found_)
-    if (p.offset > 0) pushes_.push_back(p);
-}
-
 void Relaxation::find_contacts(const Vectors& x, std::vector<Contact>& contacts) const {
   active_contacts(mesh_, candidates_, x, contacts);
+}
+
+/// What the contacts of x weigh holds for the whole step.
+void Relaxation::keep_shares() {
+  shares_.assign(candidates_.pairs().size(), 0.0F);
+  for (const Contact& c : contacts_) shares_[c.pair] = static_cast<float>(c.share);
 }
 
 double Relaxation::contact_energy_sum(const std::vector<Contact>& contacts) const {
   return parallel_sum(contacts.size(), 512, 0.0, [&](std::size_t begin, std::size_t end) {
     double sum = 0;
     for (std::size_t k = begin; k < end; ++k)
-      sum += contacts[k].multiplicity *
+      sum += contacts[k].share *
              contact_energy(contacts[k].distance, contacts[k].contact_distance, settings_.contact_stiffness).value;
     return sum;
   });
-}
-
-double Relaxation::push_energy(const Vectors& x) const {
-  double sum = 0;
-  for (const Push& p : pushes_) {
-    double depth = p.offset - (p.normal.dot(x[p.particle]) - p.plane);
-    if (depth > 0) sum += push_stiffness_ / 2 * depth * depth;
-  }
-  return sum;
 }
 
 double Relaxation::gravity_energy(const Vectors& x) const {
@@ -153,8 +112,8 @@ double Relaxation::gravity_energy(const Vectors& x) const {
 double Relaxation::energy(const Vectors& x) const { return elastic_.energy(x) + gravity_energy(x); }
 
 double Relaxation::total_energy(const Vectors& x, std::vector<Contact>& contacts) const {
-  find_contacts(x, contacts);
-  return energy(x) + contact_energy_sum(contacts) + push_energy(x) + friction_.energy(x);
+  active_contacts(mesh_, candidates_, x, contacts, &shares_);
+  return energy(x) + contact_energy_sum(contacts) + bodies_.energy(x) + friction_.energy(x);
 }
 
 /// Forces of cloth on cloth, and with `with_stiffness` their second derivatives.
@@ -163,38 +122,24 @@ void Relaxation::add_contacts(Vectors& force, bool with_stiffness) {
   const Index n = mesh_.n_particles;
   for (const Contact& c : contacts_) {
     ContactEnergy e = contact_energy(c.distance, c.contact_distance, settings_.contact_stiffness);
-    bool stiff = with_stiffness && c.multiplicity > 0;
     ContactStiffness s{{-1, -1, -1, -1}, {0, 0, 0, 0}, c.normal.cast<float>(), 0};
-    if (stiff) s.stiffness = static_cast<float>(c.multiplicity * e.second);
+    s.stiffness = static_cast<float>(c.share * e.second);
     for (int k = 0; k < 4; ++k) {
       if (c.p[k] < 0 || c.p[k] >= n || c.w[k] == 0) continue;
-      force[c.p[k]] -= c.multiplicity * e.first * c.w[k] * c.normal;
-      if (!stiff) continue;
+      force[c.p[k]] -= c.share * e.first * c.w[k] * c.normal;
+      if (!with_stiffness) continue;
       s.particle[k] = c.p[k];
       s.weight[k] = static_cast<float>(c.w[k]);
       matrix_.add_diagonal(static_cast<std::size_t>(c.p[k]),
-                           Matrix3d(c.multiplicity * e.second * c.w[k] * c.w[k] * c.normal * c.normal.transpose()));
+                           Matrix3d(c.share * e.second * c.w[k] * c.w[k] * c.normal * c.normal.transpose()));
     }
-    if (stiff) stiffness_.push_back(s);
-  }
-}
-
-/// Forces and stiffness of bodies on cloth at x.
-void Relaxation::add_pushes(const Vectors& x) {
-  for (const Push& p : pushes_) {
-    double depth = p.offset - (p.normal.dot(x[p.particle]) - p.plane);
-    if (depth <= 0) continue;
-    force_[p.particle] += push_stiffness_ * depth * p.normal;
-    matrix_.add_diagonal(p.particle, Matrix3d(push_stiffness_ * p.normal * p.normal.transpose()));
+    if (with_stiffness) stiffness_.push_back(s);
   }
 }
 
 void Relaxation::collect_normal_forces(const Vectors& x) {
   friction_.begin_step();
-  for (const Push& p : pushes_) {
-    double depth = p.offset - (p.normal.dot(x[p.particle]) - p.plane);
-    if (depth > 0) friction_.add_normal_force(p.particle, push_stiffness_ * depth * p.normal, p.friction);
-  }
+  bodies_.add_normal_forces(x, friction_);
   friction_.freeze(x);
 }
 
@@ -212,7 +157,7 @@ double Relaxation::rms_over_weight(const Vectors& force) const {
 
 double Relaxation::residual(const Vectors& x, Vectors& force) {
   refresh_candidates(x);
-  find_pushes(x);
+  bodies_.find(x);
   find_contacts(x, contacts_);
   elastic_.energy_and_force(x, force);
   add_external_forces(x, force);
@@ -245,8 +190,9 @@ bool Relaxation::move_held(const Vectors& x, Vectors& dx) const {
 /// Forces, matrix and what bodies bear at x. Returns the energy that the line search compares with.
 double Relaxation::assemble(const Vectors& x, StepReport& report) {
   refresh_candidates(x);
-  find_pushes(x);
+  bodies_.find(x);
   find_contacts(x, contacts_);
+  keep_shares();
   report.contacts = contacts_.size();
   double elastic = elastic_.energy_force_hessian(x, force_, matrix_);
   add_external_forces(x, force_);
@@ -254,12 +200,12 @@ double Relaxation::assemble(const Vectors& x, StepReport& report) {
   add_contacts(force_, true);
   net_ = force_;
   report.residual = residual_of(net_);
-  add_pushes(x);
+  bodies_.add_forces(x, force_, matrix_);
   friction_.add_force(x, force_, &matrix_);
   holds_.filter(force_);
   report.energy = elastic + gravity_energy(x);
   for (std::size_t i = 0; i < x.size(); ++i) matrix_.add_diagonal(i, model_.mass[i] / (time_step_ * time_step_));
-  return report.energy + contact_energy_sum(contacts_) + push_energy(x) + friction_.energy(x);
+  return report.energy + contact_energy_sum(contacts_) + bodies_.energy(x) + friction_.energy(x);
 }
 
 /// dx_ from the linear system. A particle just off a body feels nothing of it, and the system would send it inside: who
@@ -268,17 +214,7 @@ void Relaxation::solve_step(const Vectors& x, StepReport& report) {
   for (int round = 0;; ++round) {
     report.linear_iterations +=
         linear_.solve(matrix_, stiffness_, force_, kLinearTolerance, kLinearIterations, dx_, &x).iterations;
-    if (round == kForesights) return;
-    std::size_t fresh = 0;
-    for (Push& p : pushes_) {
-      double depth = p.offset - (p.normal.dot(x[p.particle]) - p.plane);
-      if (depth > 0 || p.foreseen || depth - p.normal.dot(dx_[p.particle]) < kForeseenDepth) continue;
-      p.foreseen = true;
-      ++fresh;
-      matrix_.add_diagonal(p.particle, Matrix3d(push_stiffness_ * p.normal * p.normal.transpose()));
-      force_[p.particle] += holds_.filtered(p.particle, Vector3d(push_stiffness_ * depth * p.normal));
-    }
-    if (fresh == 0) return;
+    if (round == kForesights || bodies_.foresee(x, dx_, holds_, force_, matrix_) == 0) return;
   }
 }
 
@@ -321,16 +257,25 @@ StepReport Relaxation::step(Vectors& x) {
   StepReport report;
   report.time_step = time_step_;
   double before = assemble(x, report);
+  wish_ = force_;  // without the forces that only keep foreseen contacts from closing
   solve_step(x, report);
   report.newton_step = largest(dx_);
   double predicted = 0;  // decrease of the energy that the quadratic model promises, at least half of f . dx
-  for (std::size_t i = 0; i < x.size(); ++i) predicted += force_[i].dot(dx_[i]);
+  for (std::size_t i = 0; i < x.size(); ++i) predicted += wish_[i].dot(dx_[i]);
   bool driven = drive(x);
+  whole_ = dx_;
   TruncateStats cut = keep_apart(x);
+  double after = search(x, before, driven, report);
+  // Cutting single particles back turns the step, perhaps uphill. The whole step made shorter does not turn.
+  for (double share = 0.5; !report.accepted && cut.limited > 0 && share > kLeastStep; share *= 0.5) {
+    for (std::size_t i = 0; i < x.size(); ++i) dx_[i] = share * whole_[i];
+    if (truncate(mesh_, candidates_, x, dx_).limited > 0) continue;
+    report.scale = 1;
+    after = search(x, before, driven, report);
+    break;
+  }
   report.limited = cut.limited;
   report.out_of_reach = cut.out_of_reach;
-
-  double after = search(x, before, driven, report);
   if (!report.accepted) {
     time_step_ = std::max(kSmallestTimeStep, time_step_ / 4);
     return report;

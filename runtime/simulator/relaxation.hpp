@@ -7,6 +7,7 @@
 
 #include "runtime/body/body.hpp"
 #include "runtime/model/model.hpp"
+#include "runtime/simulator/body_contact.hpp"
 #include "runtime/simulator/candidates.hpp"
 #include "runtime/simulator/contact.hpp"
 #include "runtime/simulator/contact_mesh.hpp"
@@ -20,10 +21,9 @@ namespace garment::simulator {
 
 struct RelaxationSettings {
   bool self_collision = true;
-  double body_offset = 1.5e-3;      ///< m, distance at which a body begins to repel cloth
   double self_offset = 0.6e-3;      ///< m, least contact distance of cloth with cloth
   double contact_stiffness = 200;   ///< N/m, cloth against cloth
-  double body_stiffness = 1e7;      ///< N/m per m^2 of cloth, body against cloth
+  BodyContactSettings body;
   double friction_give = 3e-4;      ///< m, by which a contact with a body gives way before it slips
   double gravity_scale = 1;
 };
@@ -59,39 +59,23 @@ class Relaxation {
   void set_gravity_scale(double scale) { settings_.gravity_scale = scale; }
   void set_tensile_scale(double scale) { elastic_.set_tensile_scale(scale); }
   void set_time_step(double seconds) { time_step_ = seconds; }
-  /// By how much more than `body_offset` bodies keep each particle away, m [n_particles].
-  std::vector<double>& extra_offset() { return extra_offset_; }
+  /// By how much more than the settings say bodies keep each particle away, m [n_particles].
+  std::vector<double>& extra_offset() { return bodies_.extra_offset(); }
   const ContactMesh& mesh() const { return mesh_; }
   /// Exempts what is tangled now from contacts and walls, and remembers to take it apart with every step.
   void set_tangle(Tangle tangle);
   const Tangle& tangle() const { return tangle_; }
 
  private:
-  struct Push {  // a particle near a body
-    std::size_t particle;
-    Eigen::Vector3d normal;
-    double plane;   // signed distance of x is normal . x - plane
-    double offset;
-    double friction;
-    bool foreseen = false;  // not pressed yet, but the step would press it
-  };
-  struct Sounding {  // the last distance query of a particle against one body
-    Eigen::Vector3d at{0, 0, 0};
-    double distance = 0;  // signed, m; at least the search radius where nothing was found
-    bool known = false;
-  };
   void refresh_candidates(const std::vector<Eigen::Vector3d>& x);
-  void find_pushes(const std::vector<Eigen::Vector3d>& x);
-  void find_pushes_of(std::size_t body, const std::vector<Eigen::Vector3d>& x);
   void find_contacts(const std::vector<Eigen::Vector3d>& x, std::vector<Contact>& contacts) const;
+  void keep_shares();
   double contact_energy_sum(const std::vector<Contact>& contacts) const;
-  double push_energy(const std::vector<Eigen::Vector3d>& x) const;
   double gravity_energy(const std::vector<Eigen::Vector3d>& x) const;
   double total_energy(const std::vector<Eigen::Vector3d>& x, std::vector<Contact>& contacts) const;
   void add_external_forces(const std::vector<Eigen::Vector3d>& x, std::vector<Eigen::Vector3d>& force);
   void collect_normal_forces(const std::vector<Eigen::Vector3d>& x);
   void add_contacts(std::vector<Eigen::Vector3d>& force, bool with_stiffness);
-  void add_pushes(const std::vector<Eigen::Vector3d>& x);
   double assemble(const std::vector<Eigen::Vector3d>& x, StepReport& report);
   void solve_step(const std::vector<Eigen::Vector3d>& x, StepReport& report);
   bool drive(const std::vector<Eigen::Vector3d>& x);
@@ -102,7 +86,6 @@ class Relaxation {
   double rms_over_weight(const std::vector<Eigen::Vector3d>& force) const;
 
   const model::Model& model_;
-  const std::vector<body::Body>& bodies_;
   RelaxationSettings settings_;
   ElasticModel elastic_;
   Holds holds_;
@@ -110,20 +93,18 @@ class Relaxation {
   LinearSolver linear_;
   ContactMesh mesh_;
   Candidates candidates_;
+  BodyContact bodies_;
   BodyFriction friction_;
   Tangle tangle_;
   bool have_candidates_ = false;
   double spacing_ = 0.01;             // mean edge length, m
-  double push_stiffness_ = 1000;      // N/m
   double recent_motion_ = 0.005;      // m, how far particles move in a step these days
   double time_step_ = 1.0 / 60;
   double rms_weight_ = 0;
-  std::vector<double> extra_offset_;
-  std::vector<Push> pushes_, found_;
-  std::vector<std::vector<Sounding>> soundings_;  // [n_bodies][n_particles]
   std::vector<Contact> contacts_, trial_contacts_;
+  std::vector<float> shares_;  // of the contacts of this step, by pair
   std::vector<ContactStiffness> stiffness_;
-  std::vector<Eigen::Vector3d> force_, net_, dx_, trial_, untangle_;
+  std::vector<Eigen::Vector3d> force_, wish_, net_, dx_, whole_, trial_, untangle_;
 };
 
 }  // namespace garment::simulator

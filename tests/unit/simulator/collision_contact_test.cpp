@@ -13,12 +13,13 @@ namespace {
 
 constexpr double kStiffness = 50;
 
-double energy(const ContactMesh& mesh, const Candidates& candidates, const std::vector<Vector3d>& x) {
+double energy(const ContactMesh& mesh, const Candidates& candidates, const std::vector<Vector3d>& x,
+              const std::vector<float>& shares) {
   std::vector<Contact> contacts;
-  active_contacts(mesh, candidates, x, contacts);
+  active_contacts(mesh, candidates, x, contacts, &shares);
   double sum = 0;
   for (const Contact& c : contacts)
-    sum += c.multiplicity * contact_energy(c.distance, c.contact_distance, kStiffness).value;
+    sum += c.share * contact_energy(c.distance, c.contact_distance, kStiffness).value;
   return sum;
 }
 
@@ -61,18 +62,21 @@ TEST_CASE("slivers at rest touch nothing either", "[collision]") {
   CHECK(contacts.empty());
 }
 
-TEST_CASE("a particle above flat cloth has one contact, wherever it is", "[collision]") {
+TEST_CASE("a particle above flat cloth is pushed off it, wherever it is, without jumps", "[collision]") {
   const model::Model a = test::sheet(7, 7, 0.01, 0.002);
   model::Model b = test::sheet(2, 2, 0.5, 0.002);  // one corner of a huge sheet that stands on its tip
   model::Model m = test::join(a, b);
   const auto tip = a.n_particles();
   const ContactMesh mesh(m, {});
-  Random random(7);
-  std::vector<Vector3d> places{
-      {0.03, 0.001, -0.03}, {0.035, 0.001, -0.03}, {0.03, 0.001, -0.0325}, {0.034, 0.001, -0.034}};
-  for (int n = 0; n < 200; ++n)
-    places.emplace_back(random.uniform(0.011, 0.049), 0.001, -random.uniform(0.011, 0.049));
-  for (const Vector3d& place : places) {
+  auto pushed = [&](const std::vector<Contact>& contacts) {
+    Vector3d force = Vector3d::Zero();
+    for (const Contact& c : contacts)
+      for (int k = 0; k < 4; ++k)
+        if (c.p[k] == static_cast<Index>(tip))
+          force -= c.share * c.w[k] * contact_energy(c.distance, c.contact_distance, kStiffness).first * c.normal;
+    return force;
+  };
+  auto force_at = [&](const Vector3d& place) {
     std::vector<Vector3d> x = m.start;
     x[tip] = place;
     x[tip + 1] = place + Vector3d(0.3, 0.4, 0);
@@ -82,11 +86,19 @@ TEST_CASE("a particle above flat cloth has one contact, wherever it is", "[colli
     candidates.rebuild(mesh, x, 0.004);
     std::vector<Contact> contacts;
     active_contacts(mesh, candidates, x, contacts);
-    double force = 0;
-    for (const Contact& c : contacts)
-      if (c.p[0] == static_cast<Index>(tip))
-        force -= c.multiplicity * contact_energy(c.distance, c.contact_distance, kStiffness).first;
-    CHECK(force == Approx(kStiffness * 0.001).epsilon(1e-6));  // contact distances are kept as floats
+    return pushed(contacts);
+  };
+  const Vector3d middle = force_at({0.034, 0.001, -0.0365});
+  CHECK(middle.y() == Approx(kStiffness * 0.001).epsilon(1e-6));  // contact distances are kept as floats
+  CHECK(std::abs(middle.x()) + std::abs(middle.z()) < 1e-9);
+  // Along a line that crosses edges and runs over a corner.
+  Vector3d last = force_at({0.011, 0.001, -0.03});
+  for (int n = 1; n <= 20000; ++n) {
+    const Vector3d f = force_at({0.011 + 0.038 * n / 20000.0, 0.001, -0.03 - 1e-5 * n / 20000.0});
+    CHECK(f.y() > 0.99 * kStiffness * 0.001);
+    CHECK(f.y() < 6.01 * kStiffness * 0.001);  // six triangles at a corner
+    CHECK((f - last).norm() < 0.03 * kStiffness * 0.001);
+    last = f;
   }
 }
 
@@ -126,10 +138,13 @@ TEST_CASE("contact forces are minus the gradient of the contact energy", "[colli
     std::vector<Contact> contacts;
     active_contacts(mesh, candidates, x, contacts);
     REQUIRE(contacts.size() > 20);
+    std::vector<float> shares(candidates.pairs().size(), 0.0F);  // those of x, as through one step
+    for (const Contact& c : contacts) shares[c.pair] = static_cast<float>(c.share);
+    active_contacts(mesh, candidates, x, contacts, &shares);
     std::vector<Vector3d> force(x.size(), Vector3d::Zero());
     double largest = 0;
     for (const Contact& c : contacts) {
-      const double slope = c.multiplicity * contact_energy(c.distance, c.contact_distance, kStiffness).first;
+      const double slope = c.share * contact_energy(c.distance, c.contact_distance, kStiffness).first;
       CHECK(c.w[0] + c.w[1] + c.w[2] + c.w[3] == Approx(0).margin(1e-14));
       CHECK(c.normal.norm() == Approx(1));
       Vector3d gap = Vector3d::Zero();
@@ -148,9 +163,9 @@ TEST_CASE("contact forces are minus the gradient of the contact energy", "[colli
       const double step = 1e-8;
       std::vector<Vector3d> y = x;
       y[i][axis] += step;
-      const double plus = energy(mesh, candidates, y);
+      const double plus = energy(mesh, candidates, y, shares);
       y[i][axis] -= 2 * step;
-      const double minus = energy(mesh, candidates, y);
+      const double minus = energy(mesh, candidates, y, shares);
       const double expected = -(plus - minus) / (2 * step);
       if (std::fabs(force[i][axis] - expected) > 1e-4 * largest) ++wrong;
     }
@@ -184,7 +199,7 @@ TEST_CASE("contacts are complete and the same for any thread count", "[collision
     CHECK(one[i].w == four[i].w);
     CHECK(one[i].normal == four[i].normal);
     CHECK(one[i].distance == four[i].distance);
-    CHECK(one[i].multiplicity == four[i].multiplicity);
+    CHECK(one[i].share == four[i].share);
   }
 }
 

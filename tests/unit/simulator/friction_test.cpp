@@ -109,12 +109,51 @@ TEST_CASE("several contacts on a particle add up, and mu is their mean by force"
   f.add_force(Positions(3, Vector3d(1, 0, 0)), force, nullptr);
   CHECK(force[0] == Vector3d::Zero());
   CHECK(force[1].x() == Approx(-(3 * 0.2 + 1 * 0.6)));
-  // Contacts from both sides cancel: nothing presses.
+}
+
+TEST_CASE("pinched from two sides a particle is held, and both sides bear") {
+  BodyFriction f(1, 1e-9, kStiffness);
+  const model::Model m = [] {
+    model::Model one;
+    one.mass = {1};
+    return one;
+  }();
+  const simulator::Holds free(m);
   f.begin_step();
-  f.add_normal_force(1, {0, 1, 0}, 0.5);
-  f.add_normal_force(1, {0, -1, 0}, 0.5);
-  f.freeze(Positions(3, Vector3d::Zero()));
-  CHECK(f.touching().empty());
+  f.add_normal_force(0, {0, 1, 0}, 0.5);
+  f.add_normal_force(0, {0, -1, 0}, 0.5);
+  f.freeze({Vector3d::Zero()});
+  CHECK(f.touching() == std::vector<std::uint32_t>{0});
+  auto left = [&](const Vector3d& force) {
+    Positions all{force};
+    f.absorb(all, free);
+    return all[0];
+  };
+  CHECK(left({0, 7, 0}).norm() < 1e-12);
+  CHECK(left({0, -7, 0}).norm() < 1e-12);
+  CHECK(left({0.9, 0, 0}).norm() < 1e-12);  // mu N of both is 1
+  CHECK((left({3, 0, 0}) - Vector3d(2, 0, 0)).norm() < 1e-12);
+}
+
+TEST_CASE("in a valley the normal forces of both sides bear what lies between them, nothing else") {
+  BodyFriction f(1, 1e-9, kStiffness);
+  model::Model m;
+  m.mass = {1};
+  const simulator::Holds free(m);
+  const Vector3d a = Vector3d(0.3, 1, 0).normalized(), b = Vector3d(-0.9, 0.2, 0).normalized();
+  f.begin_step();
+  f.add_normal_force(0, 2 * a, 0);
+  f.add_normal_force(0, 3 * b, 0);
+  f.freeze({Vector3d::Zero()});
+  Positions force{-0.5 * a - 8 * b};  // presses into the valley
+  f.absorb(force, free);
+  CHECK(force[0].norm() < 1e-9);
+  force = {Vector3d(0, -1, 0.7)};  // along the valley nothing bears
+  f.absorb(force, free);
+  CHECK(force[0].z() == Approx(0.7));
+  force = {Vector3d(0, 1, 0)};  // nor what lifts out of it
+  f.absorb(force, free);
+  CHECK(force[0].y() == Approx(1).epsilon(0.2));
 }
 
 TEST_CASE("a body takes from a force what presses on it, and along its surface up to mu N") {

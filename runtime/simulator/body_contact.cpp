@@ -1,0 +1,164 @@
+#include "runtime/simulator/body_contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/base/parallel.hpp"
+
+namespace garment::simulator {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using Vectors = std::vector<Vector3d>;
+
+constexpr double kOnset = 1e-4;          // m, depth at which a push has its whole stiffness
+constexpr double kLastGap = 3e-4;        // m from the body, where it hardens
+constexpr double kHardening = 20;
+constexpr double kForeseenDepth = 5e-6;  // m, less costs no energy worth a second solution
+constexpr double kSearch = 0.25;         // m, how deep inside a body a particle may start
+
+// Surfaces that face each other.
+constexpr double kFacing = -0.5;         // largest cosine between their normals
+constexpr double kShareOfRoom = 0.45;    // of the room between them, that each may keep free
+constexpr double kLeastOffset = 4e-4;    // m, that each keeps free all the same
+constexpr double kLeastRoom = 3e-3;      // m, narrower places are shut to cloth
+constexpr double kLeastWidening = 0.1;   // m per m, below it a narrow place has no mouth
+constexpr double kDeepestWedge = 5e-3;   // m, by which a particle is pushed to the mouth in one go
+
+}  // namespace
+
+PushLaw::PushLaw(double depth, double offset, double k) {
+  if (depth <= 0) return;
+  if (depth < kOnset) {
+    stiffness = k * depth / kOnset;
+    force = stiffness * depth / 2;
+    energy = force * depth / 3;
+    return;
+  }
+  stiffness = k;
+  force = k * (depth - kOnset / 2);
+  energy = k / 2 * (depth * (depth - kOnset) + kOnset * kOnset / 3);
+  const double in = depth - std::max(kOnset, offset - kLastGap), beyond = std::max(0.0, in - 2 * kLastGap);
+  if (in <= 0) return;
+  const double hard = (kHardening - 1) * k;
+  force += hard * (in - beyond);
+  energy += hard * (in - beyond) * ((in - beyond) / 2 + beyond);
+  if (beyond == 0) stiffness += hard;
+}
+
+BodyContact::BodyContact(const model::Model& model, const std::vector<body::Body>& bodies, double spacing,
+                         const BodyContactSettings& settings)
+    : model_(model),
+      bodies_(bodies),
+      offset_(settings.offset),
+      stiffness_(settings.stiffness * spacing * spacing),
+      extra_offset_(model.n_particles(), 0),
+      soundings_(bodies.size(), std::vector<Sounding>(model.n_particles())) {}
+
+void BodyContact::find(const Vectors& x) {
+  pushes_.clear();
+  narrow_.clear();
+  for (std::size_t b = 0; b < bodies_.size(); ++b) find_of(b, x);
+  if (bodies_.size() > 1)
+    std::stable_sort(pushes_.begin(), pushes_.end(), [](const Push& a, const Push& b) { return a.particle < b.particle; });
+  for (std::size_t begin = 0, end = 0; begin < pushes_.size(); begin = end) {
+    while (end < pushes_.size() && pushes_[end].particle == pushes_[begin].particle) ++end;
+    if (end - begin > 1) give_room(x, begin, end);
+  }
+  pushes_.insert(pushes_.end(), narrow_.begin(), narrow_.end());
+}
+
+/// Distance falls by no more than the way moved, so a particle that was far away need not be asked again until it may
+/// have come near; one that was near is searched for only as far as it can have gone.
+void BodyContact::find_of(std::size_t b, const Vectors& x) {
+  const body::Body& body = bodies_[b];
+  std::vector<Sounding>& soundings = soundings_[b];
+  found_.resize(x.size());
+  parallel_for(x.size(), 256, [&](std::size_t begin, std::size_t end) {
+    std::vector<body::SurfacePoint> others;
+    for (std::size_t i = begin; i < end; ++i) {
+      Pushes& out = found_[i];
+      out.n = 0;
+      const double offset = offset_ + extra_offset_[i] + model_.thickness[i] / 2;
+      Sounding& last = soundings[i];
+      const double moved = last.known ? (x[i] - last.at).norm() : 0;
+      if (last.known && last.distance - moved > 2 * offset) continue;
+      const double reach = last.known ? std::min(kSearch, std::abs(last.distance) + moved + 1e-6) : kSearch;
+      auto hit = body.closest(x[i], reach);
+      if (!hit && reach < kSearch) hit = body.closest(x[i], kSearch);
+      last = {x[i], hit ? hit->distance : kSearch, true};
+      if (!hit || hit->distance >= 2 * offset) continue;
+      const double friction = std::sqrt(body.friction * model_.friction[i]);
+      auto add = [&](const body::SurfacePoint& s) {
+        if (out.n < static_cast<int>(out.push.size()))
+          out.push[out.n++] = {i, s.push, s.push.dot(x[i]) - s.distance, offset, friction, false};
+      };
+      add(*hit);
+      body.facing(x[i], 2 * offset, *hit, others);
+      for (const body::SurfacePoint& s : others) add(s);
+    }
+  });
+  for (const Pushes& p : found_) pushes_.insert(pushes_.end(), p.push.begin(), p.push.begin() + p.n);
+}
+
+/// Where surfaces face each other (thighs that nearly touch) the offset shrinks to what room there is: pushed from both
+/// sides, cloth would jam. And cloth stays out of places too narrow for it: the room d1 + d2 grows along n1 + n2, so what
+/// was drawn into a wedge is pushed towards its mouth.
+void BodyContact::give_room(const Vectors& x, std::size_t begin, std::size_t end) {
+  for (std::size_t a = begin; a < end; ++a)
+    for (std::size_t b = a + 1; b < end; ++b) {
+      Push &p = pushes_[a], &q = pushes_[b];
+      if (p.normal.dot(q.normal) > kFacing) continue;
+      auto distance = [&](const Push& push) { return push.normal.dot(x[push.particle]) - push.plane; };
+      const double room = std::max(0.0, distance(p) + distance(q));
+      const double most = std::max(kLeastOffset, kShareOfRoom * room);
+      p.offset = std::min(p.offset, most);
+      q.offset = std::min(q.offset, most);
+      const Vector3d widening = p.normal + q.normal;
+      const double rate = widening.norm();
+      if (room > kLeastRoom || rate < kLeastWidening) continue;
+      const double depth = std::min((kLeastRoom - room) / rate, kDeepestWedge), offset = 2 * kDeepestWedge;
+      const Vector3d out = widening / rate;
+      narrow_.push_back({p.particle, out, out.dot(x[p.particle]) - offset + depth, offset, p.friction});
+    }
+}
+
+double BodyContact::energy(const Vectors& x) const {
+  double sum = 0;
+  for (const Push& p : pushes_) sum += PushLaw(p.depth(x), p.offset, stiffness_).energy;
+  return sum;
+}
+
+void BodyContact::add_forces(const Vectors& x, Vectors& force, BlockMatrix& matrix) const {
+  for (const Push& p : pushes_) {
+    const double depth = p.depth(x);
+    if (depth <= 0) continue;
+    const PushLaw law(depth, p.offset, stiffness_);
+    force[p.particle] += law.force * p.normal;
+    matrix.add_diagonal(p.particle, Matrix3d(law.stiffness * p.normal * p.normal.transpose()));
+  }
+}
+
+void BodyContact::add_normal_forces(const Vectors& x, BodyFriction& friction) const {
+  for (const Push& p : pushes_) {
+    const double depth = p.depth(x);
+    if (depth > 0) friction.add_normal_force(p.particle, PushLaw(depth, p.offset, stiffness_).force * p.normal, p.friction);
+  }
+}
+
+std::size_t BodyContact::foresee(const Vectors& x, const Vectors& dx, const Holds& holds, Vectors& force,
+                                 BlockMatrix& matrix) {
+  std::size_t fresh = 0;
+  for (Push& p : pushes_) {
+    const double depth = p.depth(x);
+    if (depth > 0 || p.foreseen || depth - p.normal.dot(dx[p.particle]) < kForeseenDepth) continue;
+    p.foreseen = true;
+    ++fresh;
+    matrix.add_diagonal(p.particle, Matrix3d(stiffness_ * p.normal * p.normal.transpose()));
+    force[p.particle] += holds.filtered(p.particle, Vector3d(stiffness_ * depth * p.normal));
+  }
+  return fresh;
+}
+
+}  // namespace garment::simulator
