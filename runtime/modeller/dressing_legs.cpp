@@ -18,6 +18,7 @@ constexpr double kMostAway = 0.3;    // m, of a crotch point from the crotch of 
 constexpr double kLegGap = 0.01;     // m, that cloth of two legs needs between the thighs
 constexpr double kLowestPart = 0.2;  // m, below the crotch; legs that part lower down are not waited for
 constexpr double kMostAside = 0.12;  // m, of a crotch point from the middle of the body
+constexpr double kOverAnkle = 0.05;   // m, over the ankle's level, where hems begin that are to fall over the foot
 constexpr double kTurned = 0.14;     // rad, from which a leg counts as drawn for another pose
 
 /// The four ends that meet at the crotch: panels of the left and of the right, of the front and of the back.
@@ -76,6 +77,20 @@ double part_height(const body::Part& left, const body::Part& right, double fallb
   return fallback;
 }
 
+/// Trousers that reach to the floor begin above the feet, pushed together below the knees, and fall over them: drawn where
+/// they end, the toes would stick through them.
+void lift_hems(const body::Body& body, std::vector<Vector3d>& place) {
+  auto knee = body.levels.find("knee"), ankle = body.levels.find("ankle");
+  if (knee == body.levels.end() || ankle == body.levels.end()) return;
+  const double top = knee->second.height, least = ankle->second.height + kOverAnkle;
+  double hem = 1e300;
+  for (const Vector3d& p : place) hem = std::min(hem, p.y());
+  if (hem >= least || top - least < 0.05) return;
+  const double share = (top - least) / (top - hem);
+  for (Vector3d& p : place)
+    if (p.y() < top) p.y() = top - share * (top - p.y());
+}
+
 /// Angle in the plane (x, y) from the downward direction towards +x.
 double slant(const Vector3d& d) { return portable::atan2(d.x(), -d.y()); }
 
@@ -114,6 +129,7 @@ void follow_legs(const design::Garment& garment, const body::Body& body, const m
   double lower = std::max(0.0, find_crotch(garment, model, place, middle).height - target);
   for (std::size_t v = 0; v < model.n_vertices(); ++v)
     if (crotch.leg[model.vertex_panel[v]]) place[v].y() -= lower;
+  lift_hems(body, place);
 }
 
 }  // namespace garment::modeller

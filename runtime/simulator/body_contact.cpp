@@ -24,6 +24,8 @@ constexpr double kShareOfRoom = 0.45;    // of the room between them, that each 
 constexpr double kLeastOffset = 4e-4;    // m, that each keeps free all the same
 constexpr double kLeastRoom = 3e-3;      // m, narrower places are shut to cloth
 constexpr double kLeastWidening = 0.1;   // m per m, below it a narrow place has no mouth
+constexpr int kRemembered = 40;          // steps
+constexpr double kRememberedWay = 2e-3;  // m
 constexpr double kDeepestWedge = 5e-3;   // m, by which a particle is pushed to the mouth in one go
 
 }  // namespace
@@ -54,6 +56,7 @@ BodyContact::BodyContact(const model::Model& model, const std::vector<body::Body
       offset_(settings.offset),
       stiffness_(settings.stiffness * spacing * spacing),
       extra_offset_(model.n_particles(), 0),
+      memory_(model.n_particles()),
       soundings_(bodies.size(), std::vector<Sounding>(model.n_particles())) {}
 
 void BodyContact::find(const Vectors& x) {
@@ -66,7 +69,18 @@ void BodyContact::find(const Vectors& x) {
     while (end < pushes_.size() && pushes_[end].particle == pushes_[begin].particle) ++end;
     if (end - begin > 1) give_room(x, begin, end);
   }
+  remember_narrow(x);
   pushes_.insert(pushes_.end(), narrow_.begin(), narrow_.end());
+}
+
+/// At the mouth of a narrow place one of its sides is no longer the nearest of its surroundings: the place would be found
+/// and lost in turns. Its last plane therefore stays for a while.
+void BodyContact::remember_narrow(const Vectors& x) {
+  for (Memory& m : memory_)
+    if (m.age >= 0 && (++m.age > kRemembered || (x[m.push.particle] - m.at).norm() > kRememberedWay)) m.age = -1;
+  for (const Push& p : narrow_) memory_[p.particle] = {p, x[p.particle], 0};
+  for (const Memory& m : memory_)
+    if (m.age > 0) narrow_.push_back(m.push);
 }
 
 /// Distance falls by no more than the way moved, so a particle that was far away need not be asked again until it may

@@ -71,8 +71,14 @@ class BodyContact {
     double distance = 0;  // signed, m; at least the search radius where nothing was found
     bool known = false;
   };
+  struct Memory {  // of the last narrow place that a particle was in
+    Push push;
+    Eigen::Vector3d at{0, 0, 0};  // where the particle was
+    int age = -1;  // steps since; below zero: nothing to remember
+  };
   void find_of(std::size_t body, const std::vector<Eigen::Vector3d>& x);
   void give_room(const std::vector<Eigen::Vector3d>& x, std::size_t begin, std::size_t end);
+  void remember_narrow(const std::vector<Eigen::Vector3d>& x);
 
   const model::Model& model_;
   const std::vector<body::Body>& bodies_;
@@ -80,6 +86,7 @@ class BodyContact {
   std::vector<double> extra_offset_;
   std::vector<Push> pushes_, narrow_;
   std::vector<Pushes> found_;
+  std::vector<Memory> memory_;                    // [n_particles]
   std::vector<std::vector<Sounding>> soundings_;  // [n_bodies][n_particles]
 };
 

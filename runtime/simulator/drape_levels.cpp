@@ -1,8 +1,15 @@
 #include "runtime/simulator/drape_levels.hpp"
 
+#include <algorithm>
+
 #include "runtime/simulator/prolong.hpp"
 
 namespace garment::simulator {
+namespace {
+
+constexpr int kMostCoarseSteps = 250;  // a coarse garment that is not near rest by then hangs in its grid
+
+}  // namespace
 
 DrapeReport drape_levels(const std::vector<model::Model>& coarse, const model::Model& model,
                          const std::vector<body::Body>& bodies, model::State& state, const DrapeSettings& settings) {
@@ -17,6 +24,7 @@ DrapeReport drape_levels(const std::vector<model::Model>& coarse, const model::M
     rough.settle = Settle::preview;
     rough.near_rest = from != nullptr;
     rough.certify = false;
+    rough.max_steps = std::min(settings.max_steps, kMostCoarseSteps);
     DrapeReport report = drape(level, bodies, on_level, rough);
     steps += report.steps;
     if (report.status == DrapeStatus::interrupted) {
