@@ -14,7 +14,7 @@ struct Tensile {
   double resilience = 0.6;     ///< RT/100
 };
 
-/// A cloth, SI units (see shared design "physics": section 1 converts KES and FAST). Index 0 is warp, 1 is weft.
+/// A cloth, SI units (docs/physics.md, section 1, converts KES and FAST). Index 0 is warp, 1 is weft.
 struct Fabric {
   std::string name;
   OriginId origin;

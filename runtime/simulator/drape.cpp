@@ -228,7 +228,15 @@ class Way {
   Vectors before_;
 };
 
-void explain(Drape& d, const ContactMesh& all) {
+/// The panel that the largest share of the net forces acts on, for messages.
+Index least_settled(const model::Model& model, const Vectors& force) {
+  std::vector<double> sum(model.panels.size(), 0);
+  for (std::size_t v = 0; v < model.n_vertices(); ++v)
+    sum[model.vertex_panel[v]] += force[model.vertex_particle[v]].squaredNorm();
+  return static_cast<Index>(std::max_element(sum.begin(), sum.end()) - sum.begin());
+}
+
+void explain(Drape& d, const ContactMesh& all, const Vectors& force) {
   Findings& findings = d.report.findings;
   if (d.report.status == DrapeStatus::tangled) {
     Tangle tangle = find_tangle(all, d.bodies, d.x);
@@ -240,13 +248,15 @@ void explain(Drape& d, const ContactMesh& all) {
                         {{origin, "the panel with most of them"}},
                         "place the panels farther from the body and from each other, or in the order in which they are worn"});
   }
-  if (d.report.status == DrapeStatus::not_settled)
+  if (d.report.status == DrapeStatus::not_settled) {
+    const model::PanelRange& panel = d.model.panels[least_settled(d.model, force)];
     findings.push_back({"G0802", Severity::error,
-                        fmt::format("after {} steps the residual is {} of the weight, {} is rest", d.report.steps,
-                                    format_number(d.report.residual, 3),
-                                    format_number(target_residual(d.settings.settle), 3)),
-                        {},
+                        fmt::format("after {} steps the residual is {} of the weight, {} is rest; most of it is in `{}`",
+                                    d.report.steps, format_number(d.report.residual, 3),
+                                    format_number(target_residual(d.settings.settle), 3), panel.name),
+                        {{panel.origin, "this panel moves most"}},
                         "a garment without support falls for ever: attach or pin it; or allow more steps"});
+  }
   if (d.report.status == DrapeStatus::diverged)
     findings.push_back({"G0803", Severity::error, "the positions became infinite; the last finite state was kept", {},
                         "check the fabric for extreme stiffness or density, and the resolution"});
@@ -271,7 +281,7 @@ DrapeReport drape(const model::Model& model, const std::vector<body::Body>& bodi
   report.body_intersections = certificate.body_intersections;
   report.inside_body = certificate.inside_body;
   if (!certificate.clean() && report.status == DrapeStatus::at_rest) report.status = DrapeStatus::tangled;
-  explain(d, all);
+  explain(d, all, force);
   return report;
 }
 

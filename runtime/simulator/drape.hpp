@@ -1,5 +1,5 @@
 #pragma once
-// The quasi-static drape: from the placed garment to rest by force (design "physics", section 3.2).
+// The quasi-static drape: from the placed garment to rest by force (docs/physics.md, section 3).
 #include <functional>
 #include <string>
 #include <vector>

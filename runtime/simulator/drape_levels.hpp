@@ -1,5 +1,5 @@
 #pragma once
-// A drape from coarse to fine (design "physics", section 3.2, point 1).
+// A drape from coarse to fine (docs/physics.md, section 3.2).
 #include <vector>
 
 #include "runtime/simulator/drape.hpp"

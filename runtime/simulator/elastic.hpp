@@ -1,5 +1,5 @@
 #pragma once
-// Elastic energy of the cloth, its forces and the matrix for the implicit solver (design "physics", section
+// Elastic energy of the cloth, its forces and the matrix for the implicit solver (docs/physics.md, section
 // 2). The stencils and their energies are defined in runtime/model/model.hpp; the kernels stand in
 // elastic_kernels.hpp.
 #include <Eigen/Core>

@@ -1,6 +1,6 @@
 #pragma once
 // Coulomb friction between particles and bodies, quasi-static: every touching particle is tied to an anchor by a
-// spring that slips when it carries more than mu N (return mapping; design "physics", section 2: a velocity
+// spring that slips when it carries more than mu N (return mapping; docs/physics.md, section 3.3: a velocity
 // regularisation would creep).
 #include <Eigen/Core>
 #include <array>

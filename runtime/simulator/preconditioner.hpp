@@ -1,6 +1,6 @@
 #pragma once
 // Two-level additive preconditioner: inverse 3x3 diagonal blocks, plus an exact solve over aggregates of
-// particles that move as rigid pieces (design "physics", section 3.2, point 3).
+// particles that move as rigid pieces (docs/physics.md, section 3.2).
 #include <Eigen/Core>
 #include <array>
 #include <vector>

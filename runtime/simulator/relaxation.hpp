@@ -1,6 +1,6 @@
 #pragma once
 // One drape under way: inexact implicit steps towards the minimum of elastic, gravity and contact energy, none of which
-// starts an intersection of cloth with cloth (design "physics", sections 3.2 and 3.4). Bodies push particles out along the
+// starts an intersection of cloth with cloth (docs/physics.md, section 3). Bodies push particles out along the
 // normals of their surface, so a garment may start inside one; the drape looks at the exact certificate before it ends.
 #include <Eigen/Core>
 #include <vector>

@@ -65,7 +65,7 @@ design::Garment tee() {
 }
 
 /// Trousers of four straight panels, their crotch 5 cm too high, each leg turned outwards by `spread` (rad).
-design::Garment trousers(double spread) {
+design::Garment trousers(double spread, double inseam = 0.55) {
   const body::Body& body = test::woman()[0];
   double crotch = body.levels.at("crotch").height + 0.05;
   design::Garment g;
@@ -75,7 +75,7 @@ design::Garment trousers(double spread) {
       double w = 0.32;
       design::Panel p =
           test::rectangle((std::string(side > 0 ? "left" : "right") + (z > 0 ? "_front" : "_back")).c_str(),
-                          w, 0.8, 0.02, {side > 0 ? 0 : -w, -0.55});
+                          w, 0.25 + inseam, 0.02, {side > 0 ? 0 : -w, -inseam});
       int inner = side > 0 ? 3 : 1;  // inseam below y = 0, rise above
       auto a = p.edges[inner].curve.start(), b = p.edges[inner].curve.end();
       p.edges[inner] = test::edge("first", a, {a.x(), 0});
@@ -129,6 +129,17 @@ TEST_CASE("trousers drawn too high or astride come round their own legs") {
       }
     }
   }
+}
+
+TEST_CASE("trousers that reach the floor begin above the feet") {
+  const body::Body& body = test::woman()[0];
+  model::Model m = build(trousers(0, 0.95));
+  CHECK(test::least_distance(m, body) > 0);
+  double low = 1e300, high = -1e300;
+  for (const Vector3d& p : m.start) low = std::min(low, p.y()), high = std::max(high, p.y());
+  CHECK(low > body.levels.at("ankle").height + 0.02);
+  CHECK(low < body.levels.at("ankle").height + 0.08);
+  CHECK(high > body.levels.at("crotch").height + 0.1);  // above the knees they stay as they were drawn
 }
 
 TEST_CASE("panels that stand in the body move out of it, each to its own side") {
