@@ -12,6 +12,11 @@ namespace garment::modeller {
 /// A sleeve is what is labelled "arm" or has "sleeve" in its name.
 bool is_sleeve(const design::Panel& panel);
 
+/// Lifts a garment drawn for a shorter person, whole, until its shoulder seams (where fronts and backs meet above the bust,
+/// nearer to the middle than the sides of the torso) lie 1 cm over the shoulders; at most 40 cm. Never lowers: what is too high falls.
+void lift_to_shoulders(const design::Garment& garment, const body::Body& body, const model::Model& model,
+                       std::vector<Eigen::Vector3d>& place);
+
 /// Turns and moves the rigidly placed sleeve panels of each side together so that their common axis lies on
 /// the arm of a person; how far out they begin stays. `place` [n_vertices], m. Bodies without arms change
 /// nothing.

@@ -340,6 +340,7 @@ bool place_panels(const design::Garment& garment, const std::vector<body::Body>&
       std::any_of(bodies.begin(), bodies.end(), [](const body::Body& b) { return !b.parts.empty(); });
   if (any_rigid)
     for (const body::Body& b : bodies) {
+      lift_to_shoulders(garment, b, model, w.place);
       follow_arms(garment, b, model, w.place);
       follow_head(garment, b, model, w.place);
       follow_legs(garment, b, model, w.place);

@@ -131,8 +131,9 @@ void BodyContact::give_room(const Vectors& x, std::size_t begin, std::size_t end
       q.offset = std::min(q.offset, most);
       const Vector3d widening = p.normal + q.normal;
       const double rate = widening.norm();
-      if (room > kLeastRoom || rate < kLeastWidening) continue;
-      const double depth = std::min((kLeastRoom - room) / rate, kDeepestWedge), offset = 2 * kDeepestWedge;
+      const double least = kLeastRoom + 2 * extra_offset_[p.particle];
+      if (room > least || rate < kLeastWidening) continue;
+      const double depth = std::min((least - room) / rate, kDeepestWedge), offset = 2 * kDeepestWedge;
       const Vector3d out = widening / rate;
       narrow_.push_back({p.particle, out, out.dot(x[p.particle]) - offset + depth, offset, p.friction});
     }

@@ -15,6 +15,7 @@ constexpr std::size_t kGrain = 4096;     // pairs of one chunk
 constexpr double kZeroGap = 1e-12;       // m: below this the gap has no direction
 constexpr double kFade = 0.1;            // share of an edge over which its contacts fade towards its ends
 constexpr double kParallel = 0.01;       // sin^2 of the angle from which edges count as crossing
+constexpr double kNear = 0.5, kVeryNear = 0.15;  // shares of the contact distance between which edges come to count whole
 constexpr double kLeastShare = 1e-4;     // fainter contacts are left out
 constexpr double kLeastDistance = 1e-9;  // m: the energy goes no nearer to its pole
 
@@ -55,9 +56,12 @@ class Finder {
     if (!(gap.squaredNorm() < r * r)) return;
     const Vector3d across = u.cross(v);
     double share = shares_ ? (*shares_)[pair] : 0;
-    if (share == 0)
+    if (share == 0) {
       share = rise(std::min(s.s, 1 - s.s), kFade) * rise(std::min(s.t, 1 - s.t), kFade) *
               rise(across.squaredNorm() / std::max(u.squaredNorm() * v.squaredNorm(), 1e-300), kParallel);
+      // What has come very near counts whole: a faint contact would let edges close up, and throw them apart as it grows.
+      share = std::max(share, rise(kNear - gap.norm() / r, kNear - kVeryNear));
+    }
     if (share < kLeastShare) return;
     Contact contact;
     contact.p = p;

@@ -21,6 +21,11 @@ constexpr double kRounding = 1e-10;        // share of the energy that sums of i
 constexpr int kForesights = 1;             // times that the contacts of one step are revised
 constexpr int kHalvings = 4;               // of a step that would raise the energy
 constexpr double kLeastStep = 1e-3;        // share of a step that walls would turn
+constexpr double kTurned = 0.5;            // cosine from which a particle counts as having turned back
+constexpr int kFreeTurns = 4;              // in a row that say nothing yet
+constexpr double kLeastSwing = 2e-5;       // m
+constexpr double kLeastDamping = 10, kMostDamping = 1e4;  // N/m
+constexpr double kForgetDamping = 0.8;     // per step
 constexpr double kHoldSpeed = 5e-3;        // m per step towards a hold's place
 
 const std::vector<body::Body>& no_bodies() {
@@ -57,6 +62,9 @@ Relaxation::Relaxation(const model::Model& model, const std::vector<body::Body>&
       bodies_(model, bodies, mean_edge(model), settings.body),
       friction_(model.n_particles(), settings.friction_give, bodies_.stiffness()) {
   spacing_ = mean_edge(model);
+  turns_.assign(model.n_particles(), 0);
+  damping_.assign(model.n_particles(), 0);
+  last_motion_.assign(model.n_particles(), Vector3d::Zero());
   recent_motion_ = spacing_ / 2;
   double sum = 0;
   for (double m : model.mass) sum += m * m * model.gravity.squaredNorm();
@@ -204,7 +212,8 @@ double Relaxation::assemble(const Vectors& x, StepReport& report) {
   friction_.add_force(x, force_, &matrix_);
   holds_.filter(force_);
   report.energy = elastic + gravity_energy(x);
-  for (std::size_t i = 0; i < x.size(); ++i) matrix_.add_diagonal(i, model_.mass[i] / (time_step_ * time_step_));
+  for (std::size_t i = 0; i < x.size(); ++i)
+    matrix_.add_diagonal(i, model_.mass[i] / (time_step_ * time_step_) + damping_[i]);
   return report.energy + contact_energy_sum(contacts_) + bodies_.energy(x) + friction_.energy(x);
 }
 
@@ -253,6 +262,20 @@ double Relaxation::search(const Vectors& x, double before, bool driven, StepRepo
   return after;
 }
 
+/// A particle that goes back and forth between two places (at a kink of a body, where contacts change) moves less each time.
+void Relaxation::damp(const Vectors& before, const Vectors& after) {
+  for (std::size_t i = 0; i < after.size(); ++i) {
+    const Vector3d motion = after[i] - before[i];
+    const bool turned = motion.dot(last_motion_[i]) < -kTurned * motion.norm() * last_motion_[i].norm() &&
+                        std::min(motion.norm(), last_motion_[i].norm()) > kLeastSwing;
+    turns_[i] = turned ? turns_[i] + 1 : std::max(0, turns_[i] - 1);
+    damping_[i] = turned && turns_[i] > kFreeTurns ? std::clamp(2 * damping_[i], kLeastDamping, kMostDamping)
+                                                   : kForgetDamping * damping_[i];
+    if (damping_[i] < 0.1 * kLeastDamping) damping_[i] = 0;
+    last_motion_[i] = motion;
+  }
+}
+
 StepReport Relaxation::step(Vectors& x) {
   StepReport report;
   report.time_step = time_step_;
@@ -286,6 +309,7 @@ StepReport Relaxation::step(Vectors& x) {
     recent_motion_ = std::min(2 * recent_motion_, spacing_ / 2);
     have_candidates_ = false;
   }
+  damp(x, trial_);
   x.swap(trial_);
   friction_.follow(x);
   double gain = before - after;

@@ -80,6 +80,7 @@ class Relaxation {
   void solve_step(const std::vector<Eigen::Vector3d>& x, StepReport& report);
   bool drive(const std::vector<Eigen::Vector3d>& x);
   TruncateStats keep_apart(const std::vector<Eigen::Vector3d>& x);
+  void damp(const std::vector<Eigen::Vector3d>& before, const std::vector<Eigen::Vector3d>& after);
   double search(const std::vector<Eigen::Vector3d>& x, double before, bool driven, StepReport& report);
   double residual_of(std::vector<Eigen::Vector3d>& force) const;
   bool move_held(const std::vector<Eigen::Vector3d>& x, std::vector<Eigen::Vector3d>& dx) const;
@@ -104,6 +105,9 @@ class Relaxation {
   std::vector<Contact> contacts_, trial_contacts_;
   std::vector<float> shares_;  // of the contacts of this step, by pair
   std::vector<ContactStiffness> stiffness_;
+  std::vector<double> damping_;  // N/m, of particles that swing [n_particles]
+  std::vector<int> turns_;       // how often they turned back [n_particles]
+  std::vector<Eigen::Vector3d> last_motion_;
   std::vector<Eigen::Vector3d> force_, wish_, net_, dx_, whole_, trial_, untangle_;
 };
 
