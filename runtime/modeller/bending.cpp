@@ -15,6 +15,8 @@ using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using model::Index;
 
+constexpr double kResidualShare = 1;  // of the mean bending rigidity, against what no quadratic describes
+
 /// Area that a stencil answers for, by the panel it comes from.
 struct PanelArea {
   Index panel;
@@ -197,7 +199,18 @@ void add_grid_bending(const std::vector<MeshedPanel>& panels, const std::vector<
   }
 }
 
-void add_fit(const Fit& fit, const Areas& areas, model::Model& model) {
+void add_stencil(const std::vector<Index>& particles, const std::vector<Eigen::Vector3d>& weights, double area,
+                 const Matrix3d& rigidity, model::Model& model) {
+  const Matrix3d& d = rigidity;
+  model.fit_particle.insert(model.fit_particle.end(), particles.begin(), particles.end());
+  model.fit_weight.insert(model.fit_weight.end(), weights.begin(), weights.end());
+  model.fit_begin.push_back(static_cast<Index>(model.fit_particle.size()));
+  model.fit_area.push_back(area);
+  model.fit_rigidity.push_back({d(0, 0), d(1, 1), d(2, 2), d(0, 1), d(0, 2), d(1, 2)});
+}
+
+/// `joined`: several panels, or the legs of a dart, meet at the particle.
+void add_fit(const Fit& fit, const Areas& areas, bool joined, model::Model& model) {
   Matrix3d sum = Matrix3d::Zero(), mean = Matrix3d::Zero();
   for (const auto& [panel, plate] : fit.plate) mean += plate / static_cast<double>(fit.plate.size());
   double area = total(areas);
@@ -208,12 +221,10 @@ void add_fit(const Fit& fit, const Areas& areas, model::Model& model) {
     sum += a.area * *own;
   }
   sum /= area;
-  model.fit_particle.insert(model.fit_particle.end(), fit.curvature.particle.begin(),
-                            fit.curvature.particle.end());
-  model.fit_weight.insert(model.fit_weight.end(), fit.curvature.weight.begin(), fit.curvature.weight.end());
-  model.fit_begin.push_back(static_cast<Index>(model.fit_particle.size()));
-  model.fit_area.push_back(area);
-  model.fit_rigidity.push_back({sum(0, 0), sum(1, 1), sum(2, 2), sum(0, 1), sum(0, 2), sum(1, 2)});
+  add_stencil(fit.curvature.particle, fit.curvature.weight, area, sum, model);
+  if (!joined) return;
+  const Matrix3d stiff = Matrix3d::Identity() * (kResidualShare * (sum(0, 0) + sum(1, 1)) / 2);
+  for (const auto& group : fit.curvature.residual) add_stencil(fit.curvature.particle, group, area, stiff, model);
 }
 
 }  // namespace
@@ -236,9 +247,11 @@ void add_bending(const std::vector<MeshedPanel>& panels, model::Model& model) {
                panels[p].vertex_area[v]);
   hand_over_areas(sheet, model, has_stencil, areas);
   add_grid_bending(panels, grid, areas, model);
+  std::vector<int> vertices(model.n_particles(), 0);
+  for (Index i : model.vertex_particle) ++vertices[i];
   model.fit_begin.assign(1, 0);
   for (std::size_t k = 0; k < others.size(); ++k)
-    if (has_stencil[others[k]]) add_fit(fits[k], areas[others[k]], model);
+    if (has_stencil[others[k]]) add_fit(fits[k], areas[others[k]], vertices[others[k]] > 1, model);
 }
 
 }  // namespace garment::modeller

@@ -106,6 +106,33 @@ std::optional<Chart> develop(const Sheet& sheet, const model::Model& model, Inde
   return chart;
 }
 
+namespace {
+
+/// Rows: the quadratic's terms at every point, times the point's weight (`root`). An orthonormal basis of what the rows do
+/// not reach, three vectors a group.
+void add_residual(const std::vector<Eigen::Matrix<double, 5, 1>>& rows, const std::vector<double>& root, double scale,
+                  CurvatureFit& fit) {
+  const auto n = static_cast<Eigen::Index>(rows.size());
+  if (n <= 5) return;
+  Eigen::MatrixXd terms(n, 5);
+  for (Eigen::Index j = 0; j < n; ++j) terms.row(j) = rows[j].transpose();
+  const Eigen::MatrixXd basis = Eigen::HouseholderQR<Eigen::MatrixXd>(terms).householderQ() * Eigen::MatrixXd::Identity(n, n);
+  for (Eigen::Index first = 5; first < n; first += 3) {
+    std::vector<Eigen::Vector3d> group;
+    Eigen::Vector3d sum(0, 0, 0);
+    for (Eigen::Index j = 0; j < n; ++j) {
+      Eigen::Vector3d w(0, 0, 0);
+      for (Eigen::Index m = first; m < std::min(first + 3, n); ++m) w[m - first] = basis(j, m) * root[j] / (scale * scale);
+      group.push_back(w);
+      sum += w;
+    }
+    group.push_back(-sum);
+    fit.residual.push_back(std::move(group));
+  }
+}
+
+}  // namespace
+
 CurvatureFit fit_curvature(const Chart& chart, Index centre) {
   using Matrix5 = Eigen::Matrix<double, 5, 5>;
   using Vector5 = Eigen::Matrix<double, 5, 1>;
@@ -144,6 +171,7 @@ CurvatureFit fit_curvature(const Chart& chart, Index centre) {
   }
   fit.particle.push_back(centre);
   fit.weight.push_back(-sum);
+  add_residual(rows, root, scale, fit);
   return fit;
 }
 

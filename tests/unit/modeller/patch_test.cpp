@@ -108,12 +108,8 @@ double worst_force_inside(const model::Model& m) {
   return worst / (2000 * 0.05 * 0.01);  // against K * strain * h
 }
 
-/// Energy of all bending and twist stencils over positions z(x, y) = k . (x^2/2, y^2/2, x y) of the flat
-/// sheet.
-double curvature_energy(const model::Model& m, const Vector3d& k) {
-  std::vector<Vector3d> x;
-  for (const Eigen::Vector2d& p : flat_of(m))
-    x.emplace_back(p.x(), p.y(), k[0] * p.x() * p.x() / 2 + k[1] * p.y() * p.y() / 2 + k[2] * p.x() * p.y());
+/// Energy of all bending and twist stencils.
+double bending_energy(const model::Model& m, const std::vector<Vector3d>& x) {
   double energy = 0;
   for (std::size_t b = 0; b < m.bend.size(); ++b) {
     auto [i, j, l] = m.bend[b];
@@ -137,6 +133,14 @@ double curvature_energy(const model::Model& m, const Vector3d& k) {
     energy += m.fit_area[f] / 2 * (curvature.transpose() * curvature).cwiseProduct(plate).sum();
   }
   return energy;
+}
+
+/// The same over positions z(x, y) = k . (x^2/2, y^2/2, x y) of the flat sheet.
+double curvature_energy(const model::Model& m, const Vector3d& k) {
+  std::vector<Vector3d> x;
+  for (const Eigen::Vector2d& p : flat_of(m))
+    x.emplace_back(p.x(), p.y(), k[0] * p.x() * p.x() / 2 + k[1] * p.y() * p.y() / 2 + k[2] * p.x() * p.y());
+  return bending_energy(m, x);
 }
 
 void check_curvature(const model::Model& m, double area, double grain) {
@@ -208,4 +212,26 @@ TEST_CASE("curvature is exact across a seam at an angle to the grid") {
       check_curvature(m, m.panels[0].area + m.panels[1].area, 0);
     }
   }
+}
+
+TEST_CASE("a seam resists what the mean curvature does not see: going to and fro, and a sharp fold") {
+  const double h = 0.01, B = std::min(test::cloth().bending_rigidity[0], test::cloth().bending_rigidity[1]);
+  model::Model m = build(two_sewn(h, h));
+  const std::vector<Eigen::Vector2d> flat = flat_of(m);
+  REQUIRE(m.seams.size() == 1);
+  const std::vector<model::Index>& chain = m.seams[0].particles;
+  const double length = (flat[chain.back()] - flat[chain.front()]).norm(), spacing = length / static_cast<double>(chain.size() - 1);
+  std::vector<Vector3d> zigzag, crease;
+  const Eigen::Vector2d low(0.17, 0), along = Eigen::Vector2d(0.09, 0.3).normalized(), across(along.y(), -along.x());
+  const double slope = 1e-3, step = 1e-5;
+  for (const Eigen::Vector2d& p : flat) {
+    zigzag.emplace_back(p.x(), p.y(), 0);
+    crease.emplace_back(p.x(), p.y(), slope * std::abs(across.dot(p - low)));
+  }
+  for (std::size_t k = 0; k < chain.size(); ++k) zigzag[chain[k]].z() = k % 2 ? step : -step;
+  // As much as a line of the grid that goes to and fro: kappa = 4 step / spacing^2 over the seam's own strip.
+  const double to_and_fro = 4 * step / (spacing * spacing);
+  CHECK(bending_energy(m, zigzag) > B / 2 * to_and_fro * to_and_fro * length * h);
+  // And as a hinge of that strip: kappa = 2 slope / h.
+  CHECK(bending_energy(m, crease) > 0.9 * B / 2 * 4 * slope * slope / (h * h) * length * h);
 }
