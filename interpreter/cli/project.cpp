@@ -101,7 +101,7 @@ bool ends_with(const std::string& text, std::string_view ending) {
 
 void show(const grammar::Diagnostics& diagnostics, const grammar::Sources& sources, Terminal& terminal) {
   if (terminal.options().json) {
-    if (!diagnostics.empty()) terminal.result(grammar::render_json(diagnostics, sources));
+    if (!diagnostics.empty()) terminal.diagnostics(grammar::render_json(diagnostics, sources));
     return;
   }
   for (const grammar::Diagnostic& d : diagnostics) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "interpreter/cli/drape_answers.hpp"
 #include "interpreter/cli/modelling.hpp"
@@ -149,10 +150,8 @@ void summarise(const results::Report& report, const OutputFolder& out, bool drap
   terminal.note(fmt::format("results in {}/", out.folder()));
 }
 
-}  // namespace
-
-ExitCode run(const RunOptions& options, Host& host, Terminal& terminal) {
-  results::Report report;
+/// The whole run; what it found goes to `report`.
+ExitCode run_all(const RunOptions& options, results::Report& report, bool& reported, Host& host, Terminal& terminal) {
   Stopwatch watch(host, report.phases);
   Project project;
   if (ExitCode code = load(project, options.project, host, terminal); code != kOk) return code;
@@ -177,10 +176,28 @@ ExitCode run(const RunOptions& options, Host& host, Terminal& terminal) {
   report.outputs = out.files();
   report.peak_memory = host.peak_memory();
   out.write("report.json", results::report_json(report));
-  if (terminal.options().json) terminal.result(results::report_json(report));
+  reported = true;
   summarise(report, out, under_way.draped, terminal);
   if (out.failed()) return kInputOutput;
   return under_way.code;
+}
+
+}  // namespace
+
+ExitCode run(const RunOptions& options, Host& host, Terminal& terminal) {
+  results::Report report;
+  bool reported = false;
+  terminal.keep_diagnostics();
+  const ExitCode code = run_all(options, report, reported, host, terminal);
+  if (!terminal.options().json) return code;
+  // One document: the report, where there is one, with all diagnostics.
+  using nlohmann::ordered_json;
+  ordered_json all = reported ? ordered_json::parse(results::report_json(report)) : ordered_json::object();
+  all["diagnostics"] = ordered_json::array();
+  for (const std::string& kept : terminal.kept_diagnostics())
+    for (ordered_json& d : ordered_json::parse(kept)) all["diagnostics"].push_back(std::move(d));
+  terminal.result(all.dump(2, ' ', false, ordered_json::error_handler_t::replace));
+  return code;
 }
 
 }  // namespace garment::cli

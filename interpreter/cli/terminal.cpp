@@ -28,6 +28,13 @@ void Terminal::result(std::string_view text) const {
   if (!text.empty() && text.back() != '\n') std::fputc('\n', stdout);
 }
 
+void Terminal::diagnostics(std::string json) {
+  if (keeps_diagnostics_)
+    kept_diagnostics_.push_back(std::move(json));
+  else
+    result(json);
+}
+
 void Terminal::note(std::string_view line) {
   if (options_.quiet) return;
   end_progress();

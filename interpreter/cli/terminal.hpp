@@ -2,6 +2,7 @@
 // What the program says: results on standard output, everything about the work on standard error.
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "runtime/base/host.hpp"
 #include "runtime/simulator/drape.hpp"
@@ -24,6 +25,12 @@ class Terminal {
   void note(std::string_view line);                 ///< standard error, one line, unless quiet
   void error(std::string_view text);                ///< standard error, always
 
+  /// With --json a command that has a result of its own keeps the diagnostics (an array) for it, so that standard output
+  /// is one document.
+  void keep_diagnostics() { keeps_diagnostics_ = true; }
+  void diagnostics(std::string json);
+  const std::vector<std::string>& kept_diagnostics() const { return kept_diagnostics_; }
+
   /// One line that is renewed on a terminal; a plain line every few seconds elsewhere.
   void progress(const simulator::DrapeProgress& progress, Host& host);
   void end_progress();
@@ -32,6 +39,8 @@ class Terminal {
   std::string time_left(const simulator::DrapeProgress& progress, double now);
 
   TerminalOptions options_;
+  bool keeps_diagnostics_ = false;
+  std::vector<std::string> kept_diagnostics_;
   bool color_ = false, live_ = false, line_open_ = false;
   double begun_ = -1, last_ = -1e9, first_residual_ = 0;
 };

@@ -185,6 +185,12 @@ run 4 run slow.garment --no-pictures --max-steps 1 -o hurried
 complains "error[G0802]"
 exists hurried/garment.obj
 is_json hurried/report.json
+# With --json the report and the diagnostics are one document.
+run 4 run slow.garment --no-pictures --max-steps 1 -o hurried --json
+is_json out.txt
+grep -q '"G0802"' out.txt || fail "the document of a failed run does not hold its diagnostic"
+run 1 run wrong.garment --json
+is_json out.txt
 sed 's/^drape.*/drape for 2 s/; /^expect/d' square.garment >timed.garment
 run 1 run timed.garment --no-pictures
 complains "error[G0804]"
