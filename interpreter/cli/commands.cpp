@@ -30,16 +30,28 @@ bool read_script(const std::string& file, Host& host, grammar::Sources& sources,
 
 std::string plural(std::size_t n, const char* word) { return fmt::format("{} {}{}", n, word, n == 1 ? "" : "s"); }
 
+ExitCode load_model(Project& project, std::optional<model::Model>& model, const ProjectOptions& options, Host& host,
+                    Terminal& terminal) {
+  if (ExitCode code = load(project, options, host, terminal); code != kOk) return code;
+  model = build_model(project, terminal);
+  return model ? kOk : kDiagnostics;
+}
+
 }  // namespace
 
 ExitCode check(const ProjectOptions& options, Host& host, Terminal& terminal) {
   Project project;
-  if (ExitCode code = load(project, options, host, terminal); code != kOk) return code;
-  if (!build_model(project, terminal)) return kDiagnostics;
+  terminal.keep_diagnostics();
+  std::optional<model::Model> model;
+  ExitCode code = load_model(project, model, options, host, terminal);
   const design::Garment& g = project.result.garment;
-  if (terminal.options().json)
-    terminal.result(nlohmann::ordered_json{{"ok", true}, {"panels", g.panels.size()}, {"seams", g.seams.size()}}.dump());
-  else
+  if (terminal.options().json) {
+    nlohmann::ordered_json all{{"ok", code == kOk}};
+    if (code == kOk) all.update({{"panels", g.panels.size()}, {"seams", g.seams.size()}});
+    terminal.document(all.dump());
+  }
+  if (code != kOk) return code;
+  if (!terminal.options().json)
     terminal.note(fmt::format("{}: ok, {}, {}", options.file, plural(g.panels.size(), "panel"), plural(g.seams.size(), "seam")));
   return kOk;
 }
@@ -58,11 +70,14 @@ ExitCode parse(const std::string& file, Host& host, Terminal& terminal) {
 
 ExitCode show_model(const ProjectOptions& options, Host& host, Terminal& terminal) {
   Project project;
-  if (ExitCode code = load(project, options, host, terminal); code != kOk) return code;
-  std::optional<model::Model> model = build_model(project, terminal);
-  if (!model) return kDiagnostics;
-  terminal.result(terminal.options().json ? model::dump_json(*model) : model::summary_text(*model));
-  return kOk;
+  terminal.keep_diagnostics();
+  std::optional<model::Model> model;
+  ExitCode code = load_model(project, model, options, host, terminal);
+  if (terminal.options().json)
+    terminal.document(code == kOk ? model::dump_json(*model) : "");
+  else if (code == kOk)
+    terminal.result(model::summary_text(*model));
+  return code;
 }
 
 ExitCode format(const FormatOptions& options, Host& host, Terminal& terminal) {

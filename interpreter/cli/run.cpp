@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "interpreter/cli/drape_answers.hpp"
 #include "interpreter/cli/modelling.hpp"
@@ -189,14 +188,7 @@ ExitCode run(const RunOptions& options, Host& host, Terminal& terminal) {
   bool reported = false;
   terminal.keep_diagnostics();
   const ExitCode code = run_all(options, report, reported, host, terminal);
-  if (!terminal.options().json) return code;
-  // One document: the report, where there is one, with all diagnostics.
-  using nlohmann::ordered_json;
-  ordered_json all = reported ? ordered_json::parse(results::report_json(report)) : ordered_json::object();
-  all["diagnostics"] = ordered_json::array();
-  for (const std::string& kept : terminal.kept_diagnostics())
-    for (ordered_json& d : ordered_json::parse(kept)) all["diagnostics"].push_back(std::move(d));
-  terminal.result(all.dump(2, ' ', false, ordered_json::error_handler_t::replace));
+  if (terminal.options().json) terminal.document(reported ? results::report_json(report) : "");
   return code;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <nlohmann/json.hpp>
 
 #include "runtime/base/number.hpp"
 
@@ -33,6 +34,15 @@ void Terminal::diagnostics(std::string json) {
     kept_diagnostics_.push_back(std::move(json));
   else
     result(json);
+}
+
+void Terminal::document(const std::string& json) {
+  using nlohmann::ordered_json;
+  ordered_json all = json.empty() ? ordered_json::object() : ordered_json::parse(json);
+  all["diagnostics"] = ordered_json::array();
+  for (const std::string& kept : kept_diagnostics_)
+    for (ordered_json& d : ordered_json::parse(kept)) all["diagnostics"].push_back(std::move(d));
+  result(all.dump(2, ' ', false, ordered_json::error_handler_t::replace));
 }
 
 void Terminal::note(std::string_view line) {

@@ -29,7 +29,8 @@ class Terminal {
   /// is one document.
   void keep_diagnostics() { keeps_diagnostics_ = true; }
   void diagnostics(std::string json);
-  const std::vector<std::string>& kept_diagnostics() const { return kept_diagnostics_; }
+  /// With --json: writes `json` (an object, or nothing) with all kept diagnostics as one document.
+  void document(const std::string& json);
 
   /// One line that is renewed on a terminal; a plain line every few seconds elsewhere.
   void progress(const simulator::DrapeProgress& progress, Host& host);

@@ -49,6 +49,7 @@ void make_smooth(const TriangleMesh& mesh, Body::Index& index) {
       bool sharp = false;
       for (std::size_t j = begin; j < end; ++j) {
         const Vector3d other = face_normal(index, at[j].triangle);
+        if (other.isZero()) continue;  // of a triangle without area
         if (mine.dot(other) > kSharp)
           sum += corner_angle(mesh, at[j]) * other;
         else

@@ -93,7 +93,7 @@ struct Model {
   //     chart. K_a = sum_j w_ja x_j is the curvature vector (a = 11, 22, 12); E = A/2 sum_ab D_ab K_a . K_b
   std::vector<Index> fit_begin;                  ///< CSR [n_fits + 1]
   std::vector<Index> fit_particle;               ///< particle ids
-  std::vector<Vector3d> fit_weight;              ///< (w_11, w_22, w_12), 1/m^2
+  std::vector<Vector3d> fit_weight;              ///< (w_11, w_22, w_12), 1/m^2; or three residuals of the fit
   std::vector<double> fit_area;                  ///< m^2
   std::vector<std::array<double, 6>> fit_rigidity;  ///< D: 11, 22, 12-12, 11-22, 11-12, 22-12, N m
   // --- holds

@@ -109,16 +109,16 @@ void add_plates(const Sheet& sheet, const std::vector<MeshedPanel>& panels, cons
 }
 
 std::vector<Fit> make_fits(const Sheet& sheet, const std::vector<MeshedPanel>& panels,
-                           const model::Model& model, const std::vector<Index>& at) {
+                           const model::Model& model, const std::vector<Index>& at, const std::vector<char>& joined) {
   std::vector<Fit> fits(at.size());
   parallel_for(at.size(), 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       std::optional<Chart> chart = develop(sheet, model, at[k], 2);
       if (!chart) continue;
-      fits[k].curvature = fit_curvature(*chart, at[k]);
+      fits[k].curvature = fit_curvature(*chart, at[k], joined[at[k]] != 0);
       if (!fits[k].curvature.complete) {
         chart = develop(sheet, model, at[k], 3);
-        fits[k].curvature = fit_curvature(*chart, at[k]);
+        fits[k].curvature = fit_curvature(*chart, at[k], joined[at[k]] != 0);
       }
       add_plates(sheet, panels, model, *chart, fits[k]);
     }
@@ -209,8 +209,7 @@ void add_stencil(const std::vector<Index>& particles, const std::vector<Eigen::V
   model.fit_rigidity.push_back({d(0, 0), d(1, 1), d(2, 2), d(0, 1), d(0, 2), d(1, 2)});
 }
 
-/// `joined`: several panels, or the legs of a dart, meet at the particle.
-void add_fit(const Fit& fit, const Areas& areas, bool joined, model::Model& model) {
+void add_fit(const Fit& fit, const Areas& areas, model::Model& model) {
   Matrix3d sum = Matrix3d::Zero(), mean = Matrix3d::Zero();
   for (const auto& [panel, plate] : fit.plate) mean += plate / static_cast<double>(fit.plate.size());
   double area = total(areas);
@@ -222,7 +221,6 @@ void add_fit(const Fit& fit, const Areas& areas, bool joined, model::Model& mode
   }
   sum /= area;
   add_stencil(fit.curvature.particle, fit.curvature.weight, area, sum, model);
-  if (!joined) return;
   const Matrix3d stiff = Matrix3d::Identity() * (kResidualShare * (sum(0, 0) + sum(1, 1)) / 2);
   for (const auto& group : fit.curvature.residual) add_stencil(fit.curvature.particle, group, area, stiff, model);
 }
@@ -238,7 +236,11 @@ void add_bending(const std::vector<MeshedPanel>& panels, model::Model& model) {
     has_stencil[i] = grid[i].complete();
     if (!has_stencil[i]) others.push_back(static_cast<Index>(i));
   }
-  std::vector<Fit> fits = make_fits(sheet, panels, model, others);
+  // Several panels, or the legs of a dart, meet at a particle.
+  std::vector<char> joined(model.n_particles(), 0);
+  std::vector<int> vertices(model.n_particles(), 0);
+  for (Index i : model.vertex_particle) joined[i] = ++vertices[i] > 1;
+  std::vector<Fit> fits = make_fits(sheet, panels, model, others, joined);
   for (std::size_t k = 0; k < others.size(); ++k) has_stencil[others[k]] = !fits[k].plate.empty();
   std::vector<Areas> areas(model.n_particles());
   for (std::size_t p = 0; p < panels.size(); ++p)
@@ -247,11 +249,9 @@ void add_bending(const std::vector<MeshedPanel>& panels, model::Model& model) {
                panels[p].vertex_area[v]);
   hand_over_areas(sheet, model, has_stencil, areas);
   add_grid_bending(panels, grid, areas, model);
-  std::vector<int> vertices(model.n_particles(), 0);
-  for (Index i : model.vertex_particle) ++vertices[i];
   model.fit_begin.assign(1, 0);
   for (std::size_t k = 0; k < others.size(); ++k)
-    if (has_stencil[others[k]]) add_fit(fits[k], areas[others[k]], vertices[others[k]] > 1, model);
+    if (has_stencil[others[k]]) add_fit(fits[k], areas[others[k]], model);
 }
 
 }  // namespace garment::modeller

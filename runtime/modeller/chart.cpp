@@ -133,7 +133,7 @@ void add_residual(const std::vector<Eigen::Matrix<double, 5, 1>>& rows, const st
 
 }  // namespace
 
-CurvatureFit fit_curvature(const Chart& chart, Index centre) {
+CurvatureFit fit_curvature(const Chart& chart, Index centre, bool with_residual) {
   using Matrix5 = Eigen::Matrix<double, 5, 5>;
   using Vector5 = Eigen::Matrix<double, 5, 1>;
   CurvatureFit fit;
@@ -171,7 +171,7 @@ CurvatureFit fit_curvature(const Chart& chart, Index centre) {
   }
   fit.particle.push_back(centre);
   fit.weight.push_back(-sum);
-  add_residual(rows, root, scale, fit);
+  if (with_residual) add_residual(rows, root, scale, fit);
   return fit;
 }
 

@@ -31,12 +31,12 @@ std::optional<Chart> develop(const Sheet& sheet, const model::Model& model, mode
 struct CurvatureFit {
   std::vector<model::Index> particle;
   std::vector<Eigen::Vector3d> weight;  ///< (11, 22, 12), 1/m^2
-  /// What no quadratic describes, as groups of three weights like `weight`, 1/m^2, parallel to `particle`: zero on every
+  /// On demand: what no quadratic describes, as groups of three weights like `weight`, 1/m^2, parallel to `particle`: zero on every
   /// quadratic, together the weighted residual of the fit. A seam that is folded sharply, or goes to and fro from particle
   /// to particle, has little curvature in the mean, and all of it here.
   std::vector<std::vector<Eigen::Vector3d>> residual;
   bool complete = false;  ///< exact on every quadratic; else the least solution of a small neighbourhood
 };
-CurvatureFit fit_curvature(const Chart& chart, model::Index centre);
+CurvatureFit fit_curvature(const Chart& chart, model::Index centre, bool with_residual);
 
 }  // namespace garment::modeller

@@ -13,7 +13,7 @@ namespace garment::modeller {
 bool is_sleeve(const design::Panel& panel);
 
 /// Lifts a garment drawn for a shorter person, whole, until its shoulder seams (where fronts and backs meet above the bust,
-/// nearer to the middle than the sides of the torso) lie 1 cm over the shoulders; at most 40 cm. Never lowers: what is too high falls.
+/// nearer to the middle than the sides of the torso) lie 1 cm over the shoulders. Leaves alone what would have to go more than 40 cm. Never lowers: what is too high falls.
 void lift_to_shoulders(const design::Garment& garment, const body::Body& body, const model::Model& model,
                        std::vector<Eigen::Vector3d>& place);
 

@@ -79,16 +79,18 @@ double part_height(const body::Part& left, const body::Part& right, double fallb
 
 /// Trousers that reach to the floor begin above the feet, pushed together below the knees, and fall over them: drawn where
 /// they end, the toes would stick through them.
-void lift_hems(const body::Body& body, std::vector<Vector3d>& place) {
+void lift_hems(const std::vector<bool>& leg, const body::Body& body, const model::Model& model,
+               std::vector<Vector3d>& place) {
   auto knee = body.levels.find("knee"), ankle = body.levels.find("ankle");
   if (knee == body.levels.end() || ankle == body.levels.end()) return;
   const double top = knee->second.height, least = ankle->second.height + kOverAnkle;
   double hem = 1e300;
-  for (const Vector3d& p : place) hem = std::min(hem, p.y());
+  for (std::size_t v = 0; v < place.size(); ++v)
+    if (leg[model.vertex_panel[v]]) hem = std::min(hem, place[v].y());
   if (hem >= least || top - least < 0.05) return;
   const double share = (top - least) / (top - hem);
-  for (Vector3d& p : place)
-    if (p.y() < top) p.y() = top - share * (top - p.y());
+  for (std::size_t v = 0; v < place.size(); ++v)
+    if (leg[model.vertex_panel[v]] && place[v].y() < top) place[v].y() = top - share * (top - place[v].y());
 }
 
 /// Angle in the plane (x, y) from the downward direction towards +x.
@@ -129,7 +131,7 @@ void follow_legs(const design::Garment& garment, const body::Body& body, const m
   double lower = std::max(0.0, find_crotch(garment, model, place, middle).height - target);
   for (std::size_t v = 0; v < model.n_vertices(); ++v)
     if (crotch.leg[model.vertex_panel[v]]) place[v].y() -= lower;
-  lift_hems(body, place);
+  lift_hems(crotch.leg, body, model, place);
 }
 
 }  // namespace garment::modeller

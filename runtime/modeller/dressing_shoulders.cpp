@@ -13,6 +13,7 @@ using model::Index;
 
 constexpr double kWithin = 0.9;         // of the torso's half breadth: farther out, side seams join front and back
 constexpr double kOverShoulder = 0.01;  // m, between the body and a shoulder seam
+constexpr double kLeastLift = 1e-6;     // m, less is rounding
 constexpr double kMostLift = 0.4;       // m
 
 /// Height of the body at (x, z), seen from above; `below` where there is none of it, and never above `most`.
@@ -78,7 +79,7 @@ void lift_to_shoulders(const design::Garment& garment, const body::Body& body, c
     const double top = top_of(body.mesh, p.x(), p.z(), p.y() - kOverShoulder, neck->second.height + 0.02);
     lift = std::max(lift, top + kOverShoulder - p.y());
   }
-  if (lift <= 0 || lift > kMostLift) return;
+  if (lift < kLeastLift || lift > kMostLift) return;
   for (std::size_t v = 0; v < model.n_vertices(); ++v)
     if (garment.panels[model.vertex_panel[v]].placement.kind == design::Placement::Kind::rigid) place[v].y() += lift;
 }

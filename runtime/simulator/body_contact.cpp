@@ -77,10 +77,19 @@ void BodyContact::find(const Vectors& x) {
 /// and lost in turns. Its last plane therefore stays for a while.
 void BodyContact::remember_narrow(const Vectors& x) {
   for (Memory& m : memory_)
-    if (m.age >= 0 && (++m.age > kRemembered || (x[m.push.particle] - m.at).norm() > kRememberedWay)) m.age = -1;
-  for (const Push& p : narrow_) memory_[p.particle] = {p, x[p.particle], 0};
-  for (const Memory& m : memory_)
-    if (m.age > 0) narrow_.push_back(m.push);
+    if (m.age > kRemembered || (m.age >= 0 && (x[m.push.particle] - m.at).norm() > kRememberedWay)) m.age = -1;
+  std::vector<char> found(memory_.size(), 0);
+  for (const Push& p : narrow_) {
+    memory_[p.particle] = {p, x[p.particle], 0};
+    found[p.particle] = 1;
+  }
+  for (std::size_t i = 0; i < memory_.size(); ++i)
+    if (memory_[i].age >= 0 && !found[i]) narrow_.push_back(memory_[i].push);
+}
+
+void BodyContact::next_step() {
+  for (Memory& m : memory_)
+    if (m.age >= 0) ++m.age;
 }
 
 /// Distance falls by no more than the way moved, so a particle that was far away need not be asked again until it may

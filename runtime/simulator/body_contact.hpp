@@ -48,6 +48,9 @@ class BodyContact {
   /// Finds the pushes at x, sorted by particle, those of narrow places last.
   void find(const std::vector<Eigen::Vector3d>& x);
 
+  /// Lets narrow places that are not found any more be forgotten after a while: once after every step made.
+  void next_step();
+
   /// Of the pushes as planes, J.
   double energy(const std::vector<Eigen::Vector3d>& x) const;
   void add_forces(const std::vector<Eigen::Vector3d>& x, std::vector<Eigen::Vector3d>& force, BlockMatrix& matrix) const;

@@ -16,7 +16,7 @@ constexpr double kZeroGap = 1e-12;       // m: below this the gap has no directi
 constexpr double kFade = 0.1;            // share of an edge over which its contacts fade towards its ends
 constexpr double kParallel = 0.01;       // sin^2 of the angle from which edges count as crossing
 constexpr double kNear = 0.5, kVeryNear = 0.15;  // shares of the contact distance between which edges come to count whole
-constexpr double kLeastShare = 1e-4;     // fainter contacts are left out
+constexpr double kLeastShare = 1e-4;
 constexpr double kLeastDistance = 1e-9;  // m: the energy goes no nearer to its pole
 
 /// From 0 at 0 to 1 at `full` and beyond, without kinks.
@@ -62,7 +62,7 @@ class Finder {
       // What has come very near counts whole: a faint contact would let edges close up, and throw them apart as it grows.
       share = std::max(share, rise(kNear - gap.norm() / r, kNear - kVeryNear));
     }
-    if (share < kLeastShare) return;
+    share = std::max(share, kLeastShare);  // never nothing: what is known to be near keeps its weight through the step
     Contact contact;
     contact.p = p;
     contact.w = {1 - s.s, s.s, s.t - 1, -s.t};

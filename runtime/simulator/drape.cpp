@@ -170,7 +170,10 @@ class Way {
       if (rest && ++repairs_ > kMostRepairs) return DrapeStatus::tangled;
       push_pierced(all_, tangle, relaxation_);
       if (d_.settings.self_collision) relaxation_.set_tangle(find_tangle(relaxation_.mesh(), no_bodies(), d_.x));
-      if (rest) steps_in_stage_ = 0;
+      if (rest) {
+        steps_in_stage_ = 0;
+        relaxation_.forget_swings();
+      }
     }
     return DrapeStatus::not_settled;
   }
@@ -211,6 +214,7 @@ class Way {
     stage_ = stage;
     steps_in_stage_ = 0;
     relaxation_.set_time_step(kFirstTimeStep);
+    relaxation_.forget_swings();
   }
 
   bool rests(const StepReport& step, double target) const {
@@ -254,7 +258,7 @@ void explain(Drape& d, const ContactMesh& all, const Vectors& force) {
                         fmt::format("after {} steps the residual is {} of the weight, {} is rest; most of it is in `{}`",
                                     d.report.steps, format_number(d.report.residual, 3),
                                     format_number(target_residual(d.settings.settle), 3), panel.name),
-                        {{panel.origin, "this panel moves most"}},
+                        {{panel.origin, "most of the net force acts here"}},
                         "a garment without support falls for ever: attach or pin it; or allow more steps"});
   }
   if (d.report.status == DrapeStatus::diverged)

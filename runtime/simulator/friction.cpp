@@ -85,7 +85,7 @@ void BodyFriction::add_force(const std::vector<Vector3d>& x, std::vector<Vector3
 /// (Hildreth's projection on the cone of what leads away from all of them), less friction, which acts in any direction since
 /// each place bears along itself.
 Vector3d BodyFriction::left_by(const Touch& t, Vector3d f, std::size_t i, const Holds& holds) const {
-  std::array<double, 3> borne{};
+  std::array<double, 8> borne{};
   for (int sweep = 0; sweep < kSweeps; ++sweep)
     for (int k = 0; k < t.n_pressing; ++k) {
       Vector3d n = holds.filtered(i, t.pressing[k]);

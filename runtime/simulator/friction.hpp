@@ -43,7 +43,7 @@ class BodyFriction {
  private:
   struct Touch {
     Eigen::Vector3d anchor{0, 0, 0}, sum{0, 0, 0}, normal{0, 0, 0};
-    std::array<Eigen::Vector3d, 3> pressing;  // directions of the normal forces, the first n_pressing
+    std::array<Eigen::Vector3d, 8> pressing;  // directions of the normal forces, the first n_pressing
     int n_pressing = 0;
     double weighted_mu = 0, total = 0, bearable = 0, limit = 0, stiffness = 0;  // bearable = mu N
     bool anchored = false;

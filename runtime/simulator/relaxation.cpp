@@ -241,6 +241,7 @@ TruncateStats Relaxation::keep_apart(const Vectors& x) {
   double stride = largest(dx_);
   if (stride > spacing_)  // farther than a cell the linear picture of the folds says nothing
     for (Vector3d& d : dx_) d *= spacing_ / stride;
+  whole_ = dx_;
   return truncate(mesh_, candidates_, x, dx_);
 }
 
@@ -268,7 +269,7 @@ void Relaxation::damp(const Vectors& before, const Vectors& after) {
     const Vector3d motion = after[i] - before[i];
     const bool turned = motion.dot(last_motion_[i]) < -kTurned * motion.norm() * last_motion_[i].norm() &&
                         std::min(motion.norm(), last_motion_[i].norm()) > kLeastSwing;
-    turns_[i] = turned ? turns_[i] + 1 : std::max(0, turns_[i] - 1);
+    turns_[i] = turned ? turns_[i] + 1 : 0;
     damping_[i] = turned && turns_[i] > kFreeTurns ? std::clamp(2 * damping_[i], kLeastDamping, kMostDamping)
                                                    : kForgetDamping * damping_[i];
     if (damping_[i] < 0.1 * kLeastDamping) damping_[i] = 0;
@@ -286,7 +287,6 @@ StepReport Relaxation::step(Vectors& x) {
   double predicted = 0;  // decrease of the energy that the quadratic model promises, at least half of f . dx
   for (std::size_t i = 0; i < x.size(); ++i) predicted += wish_[i].dot(dx_[i]);
   bool driven = drive(x);
-  whole_ = dx_;
   TruncateStats cut = keep_apart(x);
   double after = search(x, before, driven, report);
   // Cutting single particles back turns the step, perhaps uphill. The whole step made shorter does not turn.
@@ -310,6 +310,7 @@ StepReport Relaxation::step(Vectors& x) {
     have_candidates_ = false;
   }
   damp(x, trial_);
+  bodies_.next_step();
   x.swap(trial_);
   friction_.follow(x);
   double gain = before - after;

@@ -59,6 +59,11 @@ class Relaxation {
   void set_gravity_scale(double scale) { settings_.gravity_scale = scale; }
   void set_tensile_scale(double scale) { elastic_.set_tensile_scale(scale); }
   void set_time_step(double seconds) { time_step_ = seconds; }
+  /// Frees particles that were damped for going back and forth: for when what acts on them has changed.
+  void forget_swings() {
+    damping_.assign(damping_.size(), 0);
+    turns_.assign(turns_.size(), 0);
+  }
   /// By how much more than the settings say bodies keep each particle away, m [n_particles].
   std::vector<double>& extra_offset() { return bodies_.extra_offset(); }
   const ContactMesh& mesh() const { return mesh_; }

@@ -114,6 +114,32 @@ TEST_CASE("a sleeve drawn for another pose comes round its own arm") {
   CHECK(test::surrounds(sleeve, arm[k - 1].center, arm[k + 1].center, 0.03));
 }
 
+TEST_CASE("what was drawn for a shorter person is lifted onto the shoulders, what lies on them stays") {
+  design::Garment right = tee(), low = tee();
+  right.panels.resize(2);  // without sleeves
+  low.panels.resize(2);
+  for (design::Garment* g : {&right, &low}) {
+    for (design::Panel& p : g->panels) {  // shoulder seams beside the neck
+      auto a = p.edges[3].curve.start(), b = p.edges[3].curve.end();
+      p.edges[3] = test::edge("shoulder_r", a, {0.09, a.y()});
+      p.edges.insert(p.edges.begin() + 4, test::edge("neck", {0.09, a.y()}, {-0.09, a.y()}));
+      p.edges.insert(p.edges.begin() + 5, test::edge("shoulder_l", {-0.09, a.y()}, b));
+    }
+    g->seams = {test::seam("side", {test::whole(*g, 0, 1)}, {test::whole(*g, 1, 1)}),
+                test::seam("shoulder_r", {test::whole(*g, 0, 3)}, {test::whole(*g, 1, 3)}),
+                test::seam("shoulder_l", {test::whole(*g, 0, 5)}, {test::whole(*g, 1, 5)})};
+  }
+  for (design::Panel& p : low.panels) p.placement.translation.y() -= 0.15;
+  auto top = [](const model::Model& m) {
+    double y = -1e300;
+    for (const Vector3d& p : m.start) y = std::max(y, p.y());
+    return y;
+  };
+  const double drawn = top(build(right)), lifted = top(build(low));
+  CHECK(lifted > drawn - 0.06);
+  CHECK(lifted < drawn + 0.03);
+}
+
 TEST_CASE("trousers drawn too high or astride come round their own legs") {
   for (double spread : {0.0, 0.35}) {
     model::Model m = build(trousers(spread));
