@@ -25,7 +25,7 @@ struct TriangleMesh {
 struct SurfacePoint {
   Vector3d point;
   Vector3d normal;      ///< outward, unit; angle-weighted at edges and vertices, so that it tells the sign of `distance`
-  Vector3d push;        ///< outward, unit: where to push; turns continuously where the surface is smooth, facets or not
+  Vector3d push;        ///< outward, unit: where to push; turns continuously over facets, but for corners beside a sharp edge
   double distance = 0;  ///< signed: negative inside
   int triangle = -1;
 };
