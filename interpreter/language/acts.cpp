@@ -122,7 +122,29 @@ Verdict judge(Program& program, const Statement& statement, Scope& scope) {
   return verdict;
 }
 
-void run_drape(Program& program, const Statement& statement, Scope& scope) {
+void run_garment(Program& program, const Item& item) {
+  const Statement& statement = *item.statement;
+  Scope& scope = *item.scope;
+  if (program.title_seen) fail(program, Message("G0314", "`garment` is given twice", statement.keyword.span));
+  program.title_seen = true;
+  if (statement.operands.empty() || statement.operands.size() > 2)
+    fail(program, Message("G0312", "`garment` takes the edition and a title", statement.keyword.span)
+                      .help("as in `garment 1 \"skirt\"`"));
+  const Expr& edition = statement.operands[0];
+  const Quantity q = eval_quantity(program, edition, scope, kNumber, "the edition");
+  if (q.value != 1)
+    report(program, Message("G0323",
+                            "edition " + format_quantity(q.value, {}) +
+                                " of the language; this program knows edition 1",
+                            edition.span)
+                        .help("write `garment 1`, or use a newer program"));
+  if (statement.operands.size() == 2)
+    program.garment.title = eval_text(program, statement.operands[1], scope, "the title");
+}
+
+void run_drape(Program& program, const Item& item) {
+  const Statement& statement = *item.statement;
+  Scope& scope = *item.scope;
   Clauses clauses(program, statement, scope);
   DrapeAct act;
   const BoundClause* until = clauses.find("until");
@@ -157,7 +179,9 @@ void run_drape(Program& program, const Statement& statement, Scope& scope) {
   program.acts.push_back({act, statement.span});
 }
 
-void run_expect(Program& program, const Statement& statement, Scope& scope) {
+void run_expect(Program& program, const Item& item) {
+  const Statement& statement = *item.statement;
+  Scope& scope = *item.scope;
   if (statement.operands.size() > 1)
     fail(program, Message("G0313", "`expect` takes one condition", statement.operands[1].span));
   {
@@ -171,7 +195,9 @@ void run_expect(Program& program, const Statement& statement, Scope& scope) {
       {ExpectAct{&statement, &scope, std::string(program.sources.text(span))}, statement.span});
 }
 
-void run_save(Program& program, const Statement& statement, Scope& scope) {
+void run_save(Program& program, const Item& item) {
+  const Statement& statement = *item.statement;
+  Scope& scope = *item.scope;
   SaveAct act;
   for (const Expr& operand : statement.operands) {
     const std::string path = eval_text(program, operand, scope, "`save`");
@@ -200,7 +226,9 @@ void run_save(Program& program, const Statement& statement, Scope& scope) {
   program.acts.push_back({act, statement.span});
 }
 
-void run_assert(Program& program, const Statement& statement, Scope& scope) {
+void run_assert(Program& program, const Item& item) {
+  const Statement& statement = *item.statement;
+  Scope& scope = *item.scope;
   std::string what;
   if (statement.operands.size() > 2)
     fail(program, Message("G0313", "`assert` takes one condition and one text", statement.operands[2].span));
@@ -240,7 +268,8 @@ MeasureValue measure_value(const std::string& name, const Value& value) {
   return measure;
 }
 
-void run_measure(Program& program, Declaration& declaration) {
+void run_measure(Program& program, const Item& item) {
+  Declaration& declaration = *item.declaration;
   const Statement& statement = *declaration.statement;
   const bool later = !statement.clauses.empty() && !statement.clauses[0].values.empty() &&
                      asks_drape(statement.clauses[0].values[0], *declaration.scope);

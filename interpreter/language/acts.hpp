@@ -7,12 +7,13 @@
 
 namespace garment::interpreter {
 
-void run_drape(Program& program, const Statement& statement, Scope& scope);
-void run_expect(Program& program, const Statement& statement, Scope& scope);
-void run_save(Program& program, const Statement& statement, Scope& scope);
-void run_assert(Program& program, const Statement& statement, Scope& scope);
+void run_garment(Program& program, const Item& item);
+void run_drape(Program& program, const Item& item);
+void run_expect(Program& program, const Item& item);
+void run_save(Program& program, const Item& item);
+void run_assert(Program& program, const Item& item);
 /// A `measure` after it was evaluated, or one that asks the drape.
-void run_measure(Program& program, Declaration& declaration);
+void run_measure(Program& program, const Item& item);
 
 struct Verdict {
   bool passed = false;

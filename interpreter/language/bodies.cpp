@@ -39,6 +39,13 @@ bool is_side(std::string_view path) {
 
 }  // namespace
 
+int reserve_body(Program& program, const Declaration& declaration) {
+  program.garment.bodies.emplace_back().name = declaration.name;
+  program.built.emplace_back();
+  program.build_failed.push_back(false);
+  return static_cast<int>(program.garment.bodies.size()) - 1;
+}
+
 Value evaluate_body(Program& program, Declaration& declaration) {
   const Statement& statement = *declaration.statement;
   Scope& scope = *declaration.scope;

@@ -7,6 +7,7 @@
 
 namespace garment::interpreter {
 
+int reserve_body(Program& program, const Declaration& declaration);
 /// `body NAME = SHAPE at ... friction ...`; fills its place in Garment::bodies.
 Value evaluate_body(Program& program, Declaration& declaration);
 

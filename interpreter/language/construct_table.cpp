@@ -67,8 +67,11 @@ grammar::Vocabulary make_vocabulary() {
 
 const std::vector<ConstructRecord>& construct_table() {
   static const std::vector<ConstructRecord> table = [] {
-    std::vector<ConstructRecord> all = detail::garment_constructs(), later = detail::later_constructs();
-    for (ConstructRecord& record : later) all.push_back(std::move(record));
+    std::vector<ConstructRecord> all;
+    for (auto* family : {detail::basics_constructs, detail::cloth_constructs, detail::panel_constructs,
+                         detail::assembly_constructs, detail::scene_constructs, detail::acts_constructs,
+                         detail::later_constructs})
+      for (ConstructRecord& record : family()) all.push_back(std::move(record));
     return all;
   }();
   return table;

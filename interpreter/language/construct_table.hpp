@@ -10,6 +10,11 @@
 
 namespace garment::interpreter {
 
+struct Program;
+struct Declaration;
+struct Item;
+struct Value;
+
 /// The remedy where a word of the language has no meaning yet.
 inline constexpr const char* kStillToCome = "its meaning is still to come; leave it out for now";
 
@@ -36,6 +41,13 @@ struct ConstructRecord {
   bool top = true;          ///< stands at the top level
   bool supported = true;    ///< otherwise a known word whose meaning is still to come
   bool in_library = false;  ///< may stand in a used file
+  /// Gives a declaration its meaning and its value; null for constructs that declare nothing.
+  Value (*evaluate)(Program&, Declaration&) = nullptr;
+  /// Makes room for a declaration in the garment and gives its index there, so that others may speak of it
+  /// before it is evaluated.
+  int (*reserve)(Program&, const Declaration&) = nullptr;
+  /// Runs a statement that declares nothing, or what is left to do for a declaration in the order of the script.
+  void (*run)(Program&, const Item&) = nullptr;
 };
 
 /// Every construct, in the order of the reference.
@@ -58,7 +70,12 @@ std::string nearest_name(std::string_view name, const std::vector<std::string>& 
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& candidates);
 
 namespace detail {
-std::vector<ConstructRecord> garment_constructs();
+std::vector<ConstructRecord> basics_constructs();
+std::vector<ConstructRecord> cloth_constructs();
+std::vector<ConstructRecord> panel_constructs();
+std::vector<ConstructRecord> assembly_constructs();
+std::vector<ConstructRecord> scene_constructs();
+std::vector<ConstructRecord> acts_constructs();
 std::vector<ConstructRecord> later_constructs();
 }  // namespace detail
 

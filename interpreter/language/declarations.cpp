@@ -266,23 +266,10 @@ void register_module(Program& program, Module& module) {
 void settle_declarations(Program& program, Module& module) {
   for (const Item& item : module.items) {
     if (item.declaration == nullptr) continue;
-    const std::string& keyword = item.statement->keyword.text;
-    if (keyword == "panel") {
-      item.declaration->index = static_cast<int>(program.panels.size());
-      program.panels.emplace_back().panel.name = item.declaration->name;
-    } else if (keyword == "body") {
-      item.declaration->index = static_cast<int>(program.garment.bodies.size());
-      program.garment.bodies.emplace_back().name = item.declaration->name;
-    } else if (keyword == "seam") {
-      item.declaration->index = static_cast<int>(program.seams.size());
-      program.seams.emplace_back().seam.name = item.declaration->name;
-    } else if (keyword == "pin") {
-      item.declaration->index = static_cast<int>(program.garment.pins.size());
-      program.garment.pins.emplace_back().name = item.declaration->name;
-    }
+    const ConstructRecord* record = find_construct(item.statement->keyword.text);
+    if (record != nullptr && record->reserve != nullptr)
+      item.declaration->index = record->reserve(program, *item.declaration);
   }
-  program.built.resize(program.garment.bodies.size());
-  program.build_failed.resize(program.garment.bodies.size(), false);
   for (const Item& item : module.items) {
     if (item.statement->keyword.text != "=") continue;
     try {

@@ -24,6 +24,11 @@ void check_assignments(Program& program, Module& module);
 void expand_block(Program& program, const grammar::Block& block, Scope& scope,
                   const std::function<void(const Statement&, Scope&)>& take);
 
+/// `let` and `measure`: the value after `=`.
+Value evaluate_let(Program& program, Declaration& declaration);
+/// `fn NAME(...) = ...`.
+Value evaluate_function(Program& program, Declaration& declaration);
+
 /// Parameters of a `fn`: names well formed and not builtin.
 void check_function(Program& program, const Declaration& declaration);
 

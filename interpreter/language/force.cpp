@@ -1,14 +1,9 @@
 // Declarations on demand: each evaluated once, cycles told with their path.
 #include <algorithm>
 
-#include "interpreter/language/bodies.hpp"
 #include "interpreter/language/clauses.hpp"
 #include "interpreter/language/declarations.hpp"
 #include "interpreter/language/evaluate.hpp"
-#include "interpreter/language/fabrics.hpp"
-#include "interpreter/language/panels.hpp"
-#include "interpreter/language/parameters.hpp"
-#include "interpreter/language/seams.hpp"
 
 namespace garment::interpreter {
 namespace {
@@ -33,20 +28,9 @@ Span name_span(const Declaration& declaration) {
 }
 
 [[gnu::noinline]] Value evaluate(Program& program, Declaration& declaration) {
-  const std::string& keyword = declaration.statement->keyword.text;
-  if (keyword == "let" || keyword == "measure")
-    return eval(program, defining_value(program, declaration), *declaration.scope);
-  if (keyword == "param") return evaluate_param(program, declaration);
-  if (keyword == "fn") {
-    check_function(program, declaration);
-    return Value{FunctionValue{&declaration}};
-  }
-  if (keyword == "fabric") return evaluate_fabric(program, declaration);
-  if (keyword == "body") return evaluate_body(program, declaration);
-  if (keyword == "panel") return evaluate_panel(program, declaration);
-  if (keyword == "seam") return evaluate_seam(program, declaration);
-  if (keyword == "pin") return evaluate_pin(program, declaration);
-  fail_no_value(program, declaration);
+  const ConstructRecord* record = find_construct(declaration.statement->keyword.text);
+  if (record == nullptr || record->evaluate == nullptr) fail_no_value(program, declaration);
+  return record->evaluate(program, declaration);
 }
 
 [[noreturn]] [[gnu::noinline]] void fail_cycle(Program& program, const Declaration& declaration,
@@ -76,6 +60,15 @@ bool changes(const Declaration& declaration) {
 }
 
 }  // namespace
+
+Value evaluate_let(Program& program, Declaration& declaration) {
+  return eval(program, defining_value(program, declaration), *declaration.scope);
+}
+
+Value evaluate_function(Program& program, Declaration& declaration) {
+  check_function(program, declaration);
+  return Value{FunctionValue{&declaration}};
+}
 
 const Value& force(Program& program, Declaration& declaration, Span asked_at) {
   using State = Declaration::State;

@@ -16,24 +16,6 @@
 namespace garment::interpreter {
 namespace {
 
-void run_garment(Program& program, const Statement& statement, Scope& scope) {
-  if (program.title_seen) fail(program, Message("G0314", "`garment` is given twice", statement.keyword.span));
-  program.title_seen = true;
-  if (statement.operands.empty() || statement.operands.size() > 2)
-    fail(program, Message("G0312", "`garment` takes the edition and a title", statement.keyword.span)
-                      .help("as in `garment 1 \"skirt\"`"));
-  const Expr& edition = statement.operands[0];
-  const Quantity q = eval_quantity(program, edition, scope, kNumber, "the edition");
-  if (q.value != 1)
-    report(program, Message("G0323",
-                            "edition " + format_quantity(q.value, {}) +
-                                " of the language; this program knows edition 1",
-                            edition.span)
-                        .help("write `garment 1`, or use a newer program"));
-  if (statement.operands.size() == 2)
-    program.garment.title = eval_text(program, statement.operands[1], scope, "the title");
-}
-
 template <class F>
 void guarded(const F& run) {
   try {
@@ -44,22 +26,14 @@ void guarded(const F& run) {
 
 void run_item(Program& program, const Item& item) {
   const Statement& statement = *item.statement;
-  const std::string& keyword = statement.keyword.text;
-  if (keyword == "measure") return run_measure(program, *item.declaration);
-  if (item.declaration != nullptr) {
+  const ConstructRecord* record = find_construct(statement.keyword.text);
+  if (item.declaration != nullptr && (record == nullptr || record->run == nullptr)) {
     force(program, *item.declaration, statement.span);
     return;
   }
-  if (keyword == "garment") return run_garment(program, statement, *item.scope);
-  if (keyword == "place") return run_place(program, statement, *item.scope, nullptr);
-  if (keyword == "attach") return run_attach(program, statement, *item.scope);
-  if (keyword == "gravity") return run_gravity(program, statement, *item.scope);
-  if (keyword == "drape") return run_drape(program, statement, *item.scope);
-  if (keyword == "expect") return run_expect(program, statement, *item.scope);
-  if (keyword == "save") return run_save(program, statement, *item.scope);
-  if (keyword == "assert") return run_assert(program, statement, *item.scope);
-  if (keyword != "=")
-    fail(program, Message("G0322", "`" + keyword + "` cannot stand here", statement.keyword.span));
+  if (record != nullptr && record->run != nullptr) return record->run(program, item);
+  if (statement.keyword.text != "=")
+    fail(program, Message("G0322", "`" + statement.keyword.text + "` cannot stand here", statement.keyword.span));
 }
 
 void check_both(Program& program) {
@@ -90,7 +64,7 @@ void run_all(Program& program) {
   for (const Item& item : module.items) guarded([&] { run_item(program, item); });
   const std::vector<Item> places = program.panel_places;
   for (const Item& item : places)
-    guarded([&] { run_place(program, *item.statement, *item.scope, item.declaration); });
+    guarded([&] { run_place(program, item); });
   check_assignments(program, module);
   if (program.has_error) return;  // what follows would speak of things that are not there
   check_both(program);

@@ -353,6 +353,11 @@ bool names_back(const Statement& statement) {
 
 }  // namespace
 
+int reserve_panel(Program& program, const Declaration& declaration) {
+  program.panels.emplace_back().panel.name = declaration.name;
+  return static_cast<int>(program.panels.size()) - 1;
+}
+
 Value evaluate_panel(Program& program, Declaration& declaration) {
   PanelMaker(program, declaration, program.panels[static_cast<std::size_t>(declaration.index)]).make();
   return Value{PanelValue{declaration.index}};

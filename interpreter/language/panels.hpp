@@ -4,6 +4,7 @@
 
 namespace garment::interpreter {
 
+int reserve_panel(Program& program, const Declaration& declaration);
 Value evaluate_panel(Program& program, Declaration& declaration);
 
 /// Finds out which panels are placed on a `.back`: there the smaller-x half is the wearer's left. By the

@@ -124,7 +124,10 @@ class Placer {
 
 }  // namespace
 
-void run_place(Program& program, const Statement& statement, Scope& scope, Declaration* owner) {
+void run_place(Program& program, const Item& item) {
+  const Statement& statement = *item.statement;
+  Scope& scope = *item.scope;
+  Declaration* owner = item.declaration;
   int panel = -1;
   if (owner != nullptr) {
     if (owner->state != Declaration::State::done) throw Stop{};
@@ -147,7 +150,9 @@ void run_place(Program& program, const Statement& statement, Scope& scope, Decla
   info.panel.placement = Placer(program, clauses, panel).make();
 }
 
-void run_attach(Program& program, const Statement& statement, Scope& scope) {
+void run_attach(Program& program, const Item& item) {
+  const Statement& statement = *item.statement;
+  Scope& scope = *item.scope;
   Clauses clauses(program, statement, scope);
   design::Attachment attachment;
   attachment.origin = program.origin(statement.span);
@@ -173,7 +178,9 @@ void run_attach(Program& program, const Statement& statement, Scope& scope) {
   program.garment.attachments.push_back(std::move(attachment));
 }
 
-void run_gravity(Program& program, const Statement& statement, Scope& scope) {
+void run_gravity(Program& program, const Item& item) {
+  const Statement& statement = *item.statement;
+  Scope& scope = *item.scope;
   if (statement.operands.size() > 1)
     fail(program, Message("G0313", "`gravity` takes one value, here is more", statement.operands[1].span)
                       .help("as in `gravity 9.81 m/s^2`"));
@@ -190,6 +197,11 @@ void run_gravity(Program& program, const Statement& statement, Scope& scope) {
   if (!(program.garment.gravity.norm() <= 1000))
     fail(program,
          Message("G0309", "a gravity of " + show(value) + "; it must be 1000 m/s^2 at most", expr.span));
+}
+
+int reserve_pin(Program& program, const Declaration& declaration) {
+  program.garment.pins.emplace_back().name = declaration.name;
+  return static_cast<int>(program.garment.pins.size()) - 1;
 }
 
 Value evaluate_pin(Program& program, Declaration& declaration) {

@@ -4,9 +4,13 @@
 
 namespace garment::interpreter {
 
-/// `owner` is the panel of a `place` inside a panel's block, else null.
-void run_place(Program& program, const Statement& statement, Scope& scope, Declaration* owner);
-void run_attach(Program& program, const Statement& statement, Scope& scope);
-void run_gravity(Program& program, const Statement& statement, Scope& scope);
+/// The item's declaration is the panel of a `place` inside a panel's block, else null.
+void run_place(Program& program, const Item& item);
+void run_attach(Program& program, const Item& item);
+void run_gravity(Program& program, const Item& item);
+
+int reserve_pin(Program& program, const Declaration& declaration);
+/// `pin NAME on PANEL at POINT`.
+Value evaluate_pin(Program& program, Declaration& declaration);
 
 }  // namespace garment::interpreter

@@ -210,6 +210,11 @@ class SeamMaker {
 
 }  // namespace
 
+int reserve_seam(Program& program, const Declaration& declaration) {
+  program.seams.emplace_back().seam.name = declaration.name;
+  return static_cast<int>(program.seams.size()) - 1;
+}
+
 Value evaluate_seam(Program& program, Declaration& declaration) {
   SeamMaker(program, declaration).make(program.seams[static_cast<std::size_t>(declaration.index)]);
   return Value{SeamValue{declaration.index}};

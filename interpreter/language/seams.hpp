@@ -4,6 +4,7 @@
 
 namespace garment::interpreter {
 
+int reserve_seam(Program& program, const Declaration& declaration);
 Value evaluate_seam(Program& program, Declaration& declaration);
 
 /// After all seams: links of chains must meet where other seams join them (G0503); rings are marked closed.
@@ -11,8 +12,5 @@ void check_chains(Program& program);
 
 /// Warns of edges that are neither sewn, attached nor free (G0505), and of edges sewn by two seams (G0508).
 void check_unsewn(Program& program);
-
-/// `pin NAME on PANEL at POINT`.
-Value evaluate_pin(Program& program, Declaration& declaration);
 
 }  // namespace garment::interpreter

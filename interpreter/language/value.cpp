@@ -34,6 +34,7 @@ struct KindNamer {
   std::string operator()(const NotchValue&) const { return "a notch"; }
   std::string operator()(const SeamValue&) const { return "a seam"; }
   std::string operator()(const PinValue&) const { return "a pin"; }
+  std::string operator()(const ThingValue& t) const { return "a " + std::string(t.keyword); }
   std::string operator()(const AllValue&) const { return "`all`"; }
   std::string operator()(const DrapedValue&) const { return "`draped`"; }
 };

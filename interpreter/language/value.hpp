@@ -4,6 +4,7 @@
 #include <array>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -100,6 +101,13 @@ struct SeamValue {
 struct PinValue {
   int pin = -1;
 };
+/// Any other declared thing: a region, a layer, a button, a clamp. `index` is its place in the garment's list of its
+/// kind.
+struct ThingValue {
+  std::string_view keyword;  ///< of its construct
+  const Declaration* declaration = nullptr;
+  int index = -1;
+};
 /// The word `all`, and `draped` (whose members ask the drape).
 struct AllValue {};
 struct DrapedValue {};
@@ -107,8 +115,8 @@ struct DrapedValue {};
 struct Value {
   std::variant<std::monostate, Quantity, bool, std::string, PointValue, ListValue, RangeValue, RecordValue,
                FunctionValue, BuiltinValue, ModuleValue, FabricValue, ShapeValue, BodyValue, BodyPlaceValue,
-               PanelValue, HalfValue, EdgeValue, DartValue, NotchValue, SeamValue, PinValue, AllValue,
-               DrapedValue>
+               PanelValue, HalfValue, EdgeValue, DartValue, NotchValue, SeamValue, PinValue, ThingValue,
+               AllValue, DrapedValue>
       data;
 
   template <class T>

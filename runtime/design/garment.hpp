@@ -2,6 +2,7 @@
 // The declared garment: what a script (or an imported pattern) says, as plain values, before any particle exists.
 // Metres, kilograms, seconds, radians. Space: y up, the body stands on y = 0 and faces +z.
 #include <array>
+#include <cstdint>
 #include <map>
 #include <string>
 #include <variant>
@@ -16,9 +17,17 @@ namespace garment::design {
 /// edge as cut.
 struct EdgePart {
   int panel = -1;       ///< index into Garment::panels
-  int edge = -1;        ///< index into Panel::edges
+  int edge = -1;        ///< index into the list of the panel that `on` names
   double from = 0, to = 0;
+  enum class On : std::uint8_t { outline, hole, line } on = On::outline;  ///< Panel::edges, hole_edges or lines
 };
+
+/// The edge or interior line that a part belongs to.
+inline const Edge& edge_of(const Panel& panel, const EdgePart& part) {
+  const std::size_t k = static_cast<std::size_t>(part.edge);
+  if (part.on == EdgePart::On::hole) return panel.hole_edges[k];
+  return part.on == EdgePart::On::line ? panel.lines[k] : panel.edges[k];
+}
 
 /// One side of a seam: parts that follow each other. The start of every side meets the start of the others.
 struct SeamSide {

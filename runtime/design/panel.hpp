@@ -18,6 +18,27 @@ struct Edge {
   bool free = false;       ///< marked `free`: needs no seam
 };
 
+/// A closed loop cut out of a panel; its edges are Panel::hole_edges[first .. first + count), in drawn order.
+struct Hole {
+  std::string name;
+  OriginId origin;
+  int first = 0, count = 0;
+};
+
+/// A named point inside a panel.
+struct InteriorPoint {
+  std::string name;
+  OriginId origin;
+  Point2 point{0, 0};
+};
+
+/// A cut along an interior line, Panel::lines[line]. Its ends stay closed.
+struct Slit {
+  std::string name;
+  OriginId origin;
+  int line = -1;
+};
+
 /// A mark on an edge, to be matched when sewing. `at` is an arc length in metres from the edge's drawn start.
 struct Notch {
   std::string name;
@@ -62,6 +83,11 @@ struct Panel {
   OriginId origin;
   int fabric = 0;                  ///< index into Garment::fabrics
   std::vector<Edge> edges;
+  std::vector<Edge> hole_edges;    ///< of all holes, hole by hole
+  std::vector<Hole> holes;
+  std::vector<Edge> lines;         ///< interior lines, in drawn direction
+  std::vector<InteriorPoint> points;
+  std::vector<Slit> slits;
   std::vector<Notch> notches;
   std::vector<EdgeDart> darts;
   double grain_angle = 0;          ///< of the warp, from +y, counter-clockwise, rad

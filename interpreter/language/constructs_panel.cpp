@@ -1,0 +1,128 @@
+// Panels and everything that stands in their blocks.
+#include "interpreter/language/construct_table.hpp"
+#include "interpreter/language/panels.hpp"
+
+namespace garment::interpreter::detail {
+namespace {
+
+const std::vector<ClauseRecord> kEdgeClauses = {
+    {"to", "POINT", "where the edge ends"},
+    {"by", "(DX, DY)", "where it ends, from where it starts; control points are then relative too"},
+    {"heading", "DIRECTION", "with `length`: the way a straight edge goes"},
+    {"length", "LENGTH", "with `heading`: how far", kLength, 1e-4, 100},
+    {"control", "POINT", "a quadratic curve"},
+    {"controls", "POINT, POINT", "a cubic curve"},
+    {"arc", "radius LENGTH | through POINT", "an arc of a circle; a positive radius bulges to the left"},
+    {"through", "POINT [, POINT ...]", "a smooth curve through the points"},
+    {"tangents", "[start DIRECTION] [end DIRECTION]",
+     "a smooth curve that leaves and arrives in these directions"},
+    {"bulge", "LENGTH", "an arc with this height over its chord, positive to the left", kLength, -10, 10},
+    {"free", "", "stays unsewn on purpose"},
+};
+
+std::vector<ClauseRecord> with_along(std::vector<ClauseRecord> clauses) {
+  clauses.push_back({"along", "OTHER.EDGE", ""});
+  clauses.push_back({"offset", "LENGTH", ""});
+  return clauses;
+}
+
+}  // namespace
+
+std::vector<ConstructRecord> panel_constructs() {
+  return {
+      {.keyword = "panel",
+       .declares_name = true,
+       .form = "panel NAME of FABRIC [on fold EDGE] [like PANEL [mirrored]] { ... }",
+       .doc = "a piece of cloth, drawn face up: x right, y up, the outline is the stitch line",
+       .example = "panel front of shell on fold cf { outline from (0, 0) { ... close cf } }",
+       .clauses = {{"of", "FABRIC", "what it is cut from"},
+                   {"on", "fold EDGE", "drawn as one half; the straight edge EDGE is the fold"},
+                   {"like", "PANEL", "the other panel's statements again, with the changes in the block"},
+                   {"mirrored", "", "with `like`: left and right exchanged"}},
+       .has_body = true,
+       .body_keywords = {"outline", "grain", "resolution", "notch", "dart", "label", "place", "rename",
+                         "remove", "replace", "hole", "line", "point", "slit", "allowance", "pleat", "tuck"},
+       .evaluate = evaluate_panel,
+       .reserve = reserve_panel},
+      {.keyword = "outline",
+       .form = "outline from POINT { edge ... close NAME } | outline circle(CENTER, RADIUS) [as EDGE]",
+       .doc = "the one closed loop of a panel, walked edge by edge",
+       .example = "outline circle((0, 0), 70 cm) free",
+       .clauses = {{"from", "POINT", "where the first edge starts"},
+                   {"as", "EDGE", "name of a circle's edge", {}, 1, 0, "rim"},
+                   {"free", "", "a circle's edge stays unsewn on purpose"}},
+       .has_body = true,
+       .body_keywords = {"edge", "close"},
+       .top = false},
+      {.keyword = "edge",
+       .declares_name = true,
+       .form = "edge NAME to POINT | by (DX, DY) | heading DIRECTION length LENGTH [CURVE] [free]",
+       .doc = "the next edge of an outline",
+       .example = "edge hem to (30 cm, 1 cm) tangents start +x",
+       .clauses = with_along(kEdgeClauses),
+       .top = false},
+      {.keyword = "close",
+       .declares_name = true,
+       .form = "close NAME [CURVE] [free]",
+       .doc = "the last edge, back to where the outline began",
+       .example = "close cf",
+       .clauses = kEdgeClauses,
+       .top = false},
+      {.keyword = "grain",
+       .form = "grain DIRECTION",
+       .doc = "the direction of the warp; +y unless stated",
+       .example = "grain 45 deg",
+       .top = false},
+      {.keyword = "resolution",
+       .form = "resolution LENGTH",
+       .doc = "spacing of the particles, 1 mm .. 10 cm; 1 cm unless stated",
+       .example = "resolution 5 mm",
+       .top = false},
+      {.keyword = "label",
+       .form = "label \"body\" | \"leg\" | \"arm\"",
+       .doc = "where the piece is worn",
+       .example = "label \"arm\"",
+       .top = false},
+      {.keyword = "notch",
+       .declares_name = true,
+       .form = "notch NAME on EDGE at POSITION",
+       .doc = "a mark on an edge",
+       .example = "notch hip on side at 20 cm before end",
+       .clauses = {{"on", "EDGE", "the edge"},
+                   {"at", "LENGTH | % | LENGTH before | after MARK",
+                    "from the drawn start unless it says before"}},
+       .top = false},
+      {.keyword = "dart",
+       .declares_name = true,
+       .form = "dart NAME on EDGE at POSITION width LENGTH depth LENGTH | to POINT",
+       .doc = "a V cut away at an edge, its legs sewn together",
+       .example = "dart waist_dart on waist at 50% width 2.5 cm depth 9 cm",
+       .clauses = {{"on", "EDGE", "the edge it opens on"},
+                   {"at", "POSITION", "the middle of its mouth", {}, 1, 0, "50%"},
+                   {"width", "LENGTH", "of the mouth, along the edge", kLength, 1e-3, 0.5},
+                   {"depth", "LENGTH", "square to the edge", kLength, 5e-3, 2},
+                   {"to", "POINT", "the tip, instead of a depth"},
+                   {"inside", "", ""},
+                   {"from", "POINT", ""}},
+       .top = false},
+      {.keyword = "rename",
+       .form = "rename EDGE as NAME",
+       .doc = "in a `like` block: another name for an edge, dart or notch",
+       .example = "rename cf as cb",
+       .clauses = {{"as", "NAME", "the new name"}},
+       .top = false},
+      {.keyword = "remove",
+       .form = "remove NAME [, NAME ...]",
+       .doc = "in a `like` block: leaves out a dart, notch or edge",
+       .example = "remove waist_dart",
+       .top = false},
+      {.keyword = "replace",
+       .form = "replace edge NAME to POINT ...",
+       .doc = "in a `like` block: another course for an edge",
+       .example = "replace edge waist to (0, 60 cm) bulge -1 cm",
+       .clauses = kEdgeClauses,
+       .top = false},
+  };
+}
+
+}  // namespace garment::interpreter::detail
