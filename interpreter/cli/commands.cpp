@@ -42,8 +42,8 @@ ExitCode load_model(Project& project, std::optional<model::Model>& model, const 
 ExitCode check(const ProjectOptions& options, Host& host, Terminal& terminal) {
   Project project;
   terminal.keep_diagnostics();
-  std::optional<model::Model> model;
-  ExitCode code = load_model(project, model, options, host, terminal);
+  ExitCode code = load(project, options, host, terminal);
+  if (code == kOk) code = check_model(project, terminal);
   const design::Garment& g = project.result.garment;
   if (terminal.options().json) {
     nlohmann::ordered_json all{{"ok", code == kOk}};

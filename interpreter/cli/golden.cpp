@@ -13,6 +13,7 @@
 #include "interpreter/language/interpret.hpp"
 #include "runtime/model/dump.hpp"
 #include "runtime/modeller/modeller.hpp"
+#include "runtime/modeller/unmodelled.hpp"
 
 namespace garment::cli {
 namespace {
@@ -53,7 +54,10 @@ Outcome run_script(const std::string& path, const std::string& text, Stage stage
     interpreter::Interpretation result = interpreter::interpret(o.sources, id, host, options);
     o.diagnostics = result.diagnostics;
     if (result.ok()) {
-      modeller::ModelResult built = modeller::build_model(result.garment, result.bodies);
+      modeller::ModelResult built;
+      if (stage == Stage::check)
+        built.findings = modeller::find_unmodelled(result.garment, Severity::warning);
+      if (built.findings.empty()) built = modeller::build_model(result.garment, result.bodies);
       for (grammar::Diagnostic& d : interpreter::to_diagnostics(built.findings, result.origins))
         o.diagnostics.push_back(std::move(d));
       if (stage == Stage::model && built.model) o.text = model::summary_text(*built.model);

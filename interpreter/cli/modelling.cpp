@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "runtime/modeller/modeller.hpp"
+#include "runtime/modeller/unmodelled.hpp"
 
 namespace garment::cli {
 namespace {
@@ -16,6 +17,13 @@ std::optional<model::Model> build_model(Project& project, Terminal& terminal) {
   show(interpreter::to_diagnostics(built.findings, project.result.origins), project.sources, terminal);
   if (has_errors(built.findings)) return std::nullopt;
   return std::move(built.model);
+}
+
+ExitCode check_model(Project& project, Terminal& terminal) {
+  Findings missing = modeller::find_unmodelled(project.result.garment, Severity::warning);
+  show(interpreter::to_diagnostics(missing, project.result.origins), project.sources, terminal);
+  if (!missing.empty()) return kOk;
+  return build_model(project, terminal) ? kOk : kDiagnostics;
 }
 
 std::vector<model::Model> build_coarse_models(const Project& project, const model::Model& fine) {

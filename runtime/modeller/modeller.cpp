@@ -149,6 +149,8 @@ ModelResult build_model(const design::Garment& garment, const std::vector<body::
   ModelResult result;
   Findings& findings = result.findings;
   if (!check_inputs(garment, options, findings)) return result;
+  findings = find_unmodelled(garment);
+  if (has_errors(findings)) return result;
   std::vector<BorderPanel> outlines = cut_outlines(garment, options, findings);
   if (has_errors(findings) || !check_size(outlines, options.max_particles, findings)) return result;
   std::vector<Matching> matchings = collect_matchings(garment, outlines, findings);

@@ -277,3 +277,9 @@ TEST_CASE("a coarse grid keeps narrow panels fine enough") {
   CHECK(r.model->panels[1].n_vertices == 11 * 11);
   CHECK(r.model->panels[0].n_vertices > 3 * 20);
 }
+
+TEST_CASE("what is declared and cannot be modelled yet is refused at its place") {
+  design::Garment g = sheet();
+  g.panels[0].slits.push_back({"vent", {8}, 0});
+  CHECK(found(g) == "G0460@8 ");
+}

@@ -1,0 +1,55 @@
+#include "runtime/modeller/unmodelled.hpp"
+
+namespace garment::modeller {
+namespace {
+
+class Unmodelled {
+ public:
+  explicit Unmodelled(Severity severity) : severity_(severity) {}
+
+  void say(const std::string& what, OriginId origin) {
+    findings_.push_back({"G0460",
+                         severity_,
+                         what + " is declared, but cannot be modelled yet",
+                         {{origin, ""}},
+                         "the script is checked as a whole; to drape it, leave this out for now"});
+  }
+
+  /// Says it once for each element of a list whose elements have a name and an origin.
+  template <class List>
+  void say_all(const std::string& kind, const List& list) {
+    for (const auto& thing : list) say(kind + " `" + thing.name + "`", thing.origin);
+  }
+
+  Findings take() { return std::move(findings_); }
+
+ private:
+  Severity severity_;
+  Findings findings_;
+};
+
+void find_in_panels(const design::Garment& garment, Unmodelled& out) {
+  for (const design::Panel& panel : garment.panels) {
+    out.say_all("hole", panel.holes);
+    out.say_all("slit", panel.slits);
+  }
+}
+
+void find_in_seams(const design::Garment& garment, Unmodelled& out) {
+  for (const design::Seam& seam : garment.seams)
+    for (const design::SeamSide& side : seam.sides)
+      for (const design::EdgePart& part : side.parts)
+        if (part.on != design::EdgePart::On::outline)
+          return out.say("a seam along a line or hole inside a panel", side.origin);
+}
+
+}  // namespace
+
+Findings find_unmodelled(const design::Garment& garment, Severity severity) {
+  Unmodelled out(severity);
+  find_in_panels(garment, out);
+  find_in_seams(garment, out);
+  return out.take();
+}
+
+}  // namespace garment::modeller
