@@ -12,6 +12,7 @@
 #include "runtime/modeller/placement.hpp"
 #include "runtime/modeller/sewing.hpp"
 #include "runtime/modeller/twins.hpp"
+#include "runtime/modeller/unmodelled.hpp"
 
 namespace garment::modeller {
 namespace {
