@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "interpreter/session/result_files.hpp"
 #include "runtime/base/hash.hpp"
 #include "runtime/io/mesh_writers.hpp"
 #include "runtime/io/svg_writer.hpp"
@@ -62,22 +63,11 @@ void write_results(const OutputOptions& options, const Project& project, const m
 
 bool save_file(const std::string& name, const Project& project, const model::Model& model, const model::State& state,
                OutputFolder& out, Terminal& terminal) {
-  std::filesystem::path path(name);
-  auto refuse = [&](const std::string& message, const std::string& help) {
-    show({plain_error("G0905", message, help)}, project.sources, terminal);
-    return false;
-  };
-  if (path.is_absolute() || name.find("..") != std::string::npos || name.empty())
-    return refuse(fmt::format("`save \"{}\"` leaves the results folder", name), "give a plain file name; -o says where it goes");
-  const std::vector<body::Body>& bodies = project.result.bodies;
-  std::string ending = path.extension().string();
-  if (ending == ".obj") return out.write(name, io::write_obj(model, state));
-  if (ending == ".glb") return out.write(name, io::write_glb(model, state, bodies));
-  if (ending == ".ply") return out.write(name, io::write_ply(model, state, results::vertex_strain(model, state)));
-  if (ending == ".svg") return out.write(name, io::write_pattern_svg(project.result.garment, model));
-  if (ending == ".png") return out.write(name, render::render_sheet(render::make_scene(model, state, bodies)));
-  return refuse(fmt::format("`save \"{}\"`: `{}` is no format that can be written", name, ending),
-                "use .obj, .glb, .ply, .svg or .png");
+  session::ResultFile file =
+      session::make_result_file(name, project.result.garment, project.result.bodies, model, state);
+  if (file.bytes) return out.write(name, *file.bytes);
+  show({plain_error("G0905", file.message, file.help)}, project.sources, terminal);
+  return false;
 }
 
 }  // namespace garment::cli

@@ -4,9 +4,10 @@
 
 #include <algorithm>
 
-#include "interpreter/cli/drape_answers.hpp"
 #include "interpreter/cli/modelling.hpp"
 #include "interpreter/cli/outputs.hpp"
+#include "interpreter/session/drape_answers.hpp"
+#include "interpreter/session/models.hpp"
 #include "runtime/base/hash.hpp"
 #include "runtime/base/number.hpp"
 #include "runtime/results/report.hpp"
@@ -79,7 +80,7 @@ struct Run {
     settings.progress = [this](const simulator::DrapeProgress& p) { terminal.progress(p, host); };
     settings.interrupted = [this] { return host.interrupted(); };
     std::vector<model::Model> coarse;
-    if (!draped) coarse = build_coarse_models(project, model);
+    if (!draped) coarse = session::coarse_models(project.result.garment, project.result.bodies, model);
     report.settle = act.settle;
     report.drape = simulator::drape_levels(coarse, model, project.result.bodies, state, settings);
     terminal.end_progress();
@@ -101,7 +102,7 @@ struct Run {
 
   void expect(const interpreter::Act& act) {
     if (refuse_before_drape(act, "expect")) return;
-    DrapeAnswers answers(project.result.garment, project.result.bodies, model, state, report.drape);
+    session::DrapeAnswers answers(project.result.garment, project.result.bodies, model, state, report.drape);
     interpreter::ExpectResult r = interpreter::evaluate_expect(project.result, act, answers);
     show(r.diagnostics, project.sources, terminal);
     report.expects.push_back({r.text, r.value, r.found, r.expected, r.passed});
@@ -110,7 +111,7 @@ struct Run {
 
   void measure(const interpreter::Act& act) {
     if (refuse_before_drape(act, "measure")) return;
-    DrapeAnswers answers(project.result.garment, project.result.bodies, model, state, report.drape);
+    session::DrapeAnswers answers(project.result.garment, project.result.bodies, model, state, report.drape);
     interpreter::MeasureResult r = interpreter::evaluate_measure(project.result, act, answers);
     show(r.diagnostics, project.sources, terminal);
     report.expects.push_back({r.measure.name, r.measure.value, r.measure.text, "", true});

@@ -1,6 +1,6 @@
-#include "interpreter/cli/drape_answers.hpp"
+#include "interpreter/session/drape_answers.hpp"
 
-namespace garment::cli {
+namespace garment::session {
 
 DrapeAnswers::DrapeAnswers(const design::Garment& garment, const std::vector<body::Body>& bodies,
                            const model::Model& model, const model::State& state, const simulator::DrapeReport& report)
@@ -81,4 +81,4 @@ std::optional<Eigen::Vector3d> DrapeAnswers::position(int panel, const design::P
   return state_.position[model_.vertex_particle[best]];
 }
 
-}  // namespace garment::cli
+}  // namespace garment::session

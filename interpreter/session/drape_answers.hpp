@@ -5,7 +5,7 @@
 #include "runtime/results/measures.hpp"
 #include "runtime/results/strain.hpp"
 
-namespace garment::cli {
+namespace garment::session {
 
 class DrapeAnswers final : public interpreter::DrapeMeasures {
  public:
@@ -35,4 +35,4 @@ class DrapeAnswers final : public interpreter::DrapeMeasures {
   results::Measures measures_;
 };
 
-}  // namespace garment::cli
+}  // namespace garment::session

@@ -1,0 +1,31 @@
+#include "interpreter/session/result_files.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "runtime/io/mesh_writers.hpp"
+#include "runtime/io/svg_writer.hpp"
+#include "runtime/render/pictures.hpp"
+#include "runtime/results/strain.hpp"
+
+namespace garment::session {
+
+ResultFile make_result_file(const std::string& name, const design::Garment& garment,
+                            const std::vector<body::Body>& bodies, const model::Model& model,
+                            const model::State& state) {
+  std::filesystem::path path(name);
+  if (path.is_absolute() || name.find("..") != std::string::npos || name.empty())
+    return {std::nullopt, fmt::format("`save \"{}\"` leaves the results folder", name),
+            "give a plain file name; -o says where it goes"};
+  std::string ending = path.extension().string();
+  if (ending == ".obj") return {io::write_obj(model, state), "", ""};
+  if (ending == ".glb") return {io::write_glb(model, state, bodies), "", ""};
+  if (ending == ".ply") return {io::write_ply(model, state, results::vertex_strain(model, state)), "", ""};
+  if (ending == ".svg") return {io::write_pattern_svg(garment, model), "", ""};
+  if (ending == ".png") return {render::render_sheet(render::make_scene(model, state, bodies)), "", ""};
+  return {std::nullopt, fmt::format("`save \"{}\"`: `{}` is no format that can be written", name, ending),
+          "use .obj, .glb, .ply, .svg or .png"};
+}
+
+}  // namespace garment::session

@@ -1,0 +1,25 @@
+#pragma once
+// What `save` writes, by the ending of the file's name.
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "runtime/body/body.hpp"
+#include "runtime/design/garment.hpp"
+#include "runtime/model/model.hpp"
+
+namespace garment::session {
+
+/// The bytes of a file; else why there are none, and the remedy.
+struct ResultFile {
+  std::optional<std::string> bytes;
+  std::string message, help;
+};
+
+/// The file `name` of a garment as it lies: .obj, .glb, .ply, .svg, .png. Refuses other endings and names that leave
+/// the folder they are written in.
+ResultFile make_result_file(const std::string& name, const design::Garment& garment,
+                            const std::vector<body::Body>& bodies, const model::Model& model,
+                            const model::State& state);
+
+}  // namespace garment::session
