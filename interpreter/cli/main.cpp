@@ -6,6 +6,7 @@
 
 #include "interpreter/cli/commands.hpp"
 #include "interpreter/cli/golden.hpp"
+#include "interpreter/cli/reference_page.hpp"
 #include "interpreter/cli/run.hpp"
 #include "runtime/base/parallel.hpp"
 
@@ -96,6 +97,7 @@ int main(int argc, char** argv) {
   auto* explain_command = app.add_subcommand("explain", "the long text of a diagnostic code");
   explain_command->add_option("code", o.code, "for example G0312")->required();
   add_common(explain_command, o);
+  auto* reference_command = app.add_subcommand("reference", "print the reference page: constructs, functions, units, codes, commands");
 
   try {
     app.parse(argc, argv);
@@ -114,6 +116,10 @@ int main(int argc, char** argv) {
   if (*parse_command) return parse(o.parse_file, host, terminal);
   if (*format_command) return format(o.format, host, terminal);
   if (*import_command) return import_pattern(o.import_options, host, terminal);
+  if (*reference_command) {
+    terminal.result(reference_page(app));
+    return kOk;
+  }
   if (*test_command) return run_goldens(o.golden, host, terminal);
   return explain(o.code, terminal);
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "interpreter/language/construct_families.hpp"
 #include "interpreter/language/function_table.hpp"
 
 namespace garment::interpreter {
@@ -68,10 +69,8 @@ grammar::Vocabulary make_vocabulary() {
 const std::vector<ConstructRecord>& construct_table() {
   static const std::vector<ConstructRecord> table = [] {
     std::vector<ConstructRecord> all;
-    for (auto* family : {detail::basics_constructs, detail::cloth_constructs, detail::panel_constructs,
-                         detail::assembly_constructs, detail::scene_constructs, detail::acts_constructs,
-                         detail::later_constructs})
-      for (ConstructRecord& record : family()) all.push_back(std::move(record));
+    for (const ConstructFamily& family : kConstructFamilies)
+      for (ConstructRecord& record : family.records()) all.push_back(std::move(record));
     return all;
   }();
   return table;

@@ -59,7 +59,7 @@ std::vector<ConstructRecord> basics_constructs() {
       {.keyword = "assert",
        .form = "assert CONDITION [\"what must hold\"]",
        .doc = "refuses the garment where the condition does not hold",
-       .example = "assert length(front.waist) > 30 cm \"waist is cut too small\"",
+       .example = "assert length(front.waist) > 20 cm \"waist is cut too small\"",
        .clauses = {{"within", "% | VALUE", "how near `==` must come"}},
        .run = run_assert},
   };

@@ -34,7 +34,7 @@ std::vector<ConstructRecord> panel_constructs() {
        .declares_name = true,
        .form = "panel NAME of FABRIC [on fold EDGE] [like PANEL [mirrored]] { ... }",
        .doc = "a piece of cloth, drawn face up: x right, y up, the outline is the stitch line",
-       .example = "panel front of shell on fold cf { outline from (0, 0) { ... close cf } }",
+       .example = "panel yoke of shell on fold cf {\n  outline from (0, 0) {\n    edge hem to (30 cm, 0)\n    edge side to (24 cm, 60 cm)\n    edge waist to (0, 60 cm)\n    close cf\n  }\n}",
        .clauses = {{"of", "FABRIC", "what it is cut from"},
                    {"on", "fold EDGE", "drawn as one half; the straight edge EDGE is the fold"},
                    {"like", "PANEL", "the other panel's statements again, with the changes in the block"},

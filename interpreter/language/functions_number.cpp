@@ -252,7 +252,7 @@ std::vector<FunctionRecord> number_functions() {
       {"toward",
        "toward(P, Q, FRACTION | LENGTH)",
        "the point that far on the way from P to Q",
-       "toward(a, b, 1/3)",
+       "toward(p, q, 1/3)",
        {"p", "q", "way"},
        3,
        run_toward},

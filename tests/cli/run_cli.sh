@@ -77,6 +77,11 @@ run 0 explain G0501
 says "G0501: the sides of a seam do not have the same length"
 says "What to do:"
 
+# ---- reference
+run 0 reference
+ok
+cmp -s out.txt "$2/docs/reference.md" || fail "docs/reference.md is old: garment reference > docs/reference.md"
+
 # ---- check
 run 0 check square.garment
 silent out.txt

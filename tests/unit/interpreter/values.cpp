@@ -246,33 +246,3 @@ TEST_CASE("the table describes itself") {
   CHECK(did_you_mean("waits", {"waist", "hip"}) == "did you mean `waist`?");
   CHECK(did_you_mean("ab", {"waist", "hip"}).empty());
 }
-
-TEST_CASE("every example of the table parses and every function example has a value") {
-  for (const ConstructRecord& record : construct_table()) {
-    if (!record.supported || !record.top) continue;
-    INFO(record.example);
-    grammar::Sources sources;
-    const auto id = sources.add("example", std::string(record.example) + "\n");
-    const auto parsed = grammar::parse(sources, id, vocabulary());
-    for (const auto& d : parsed.diagnostics) INFO(grammar::render(d, sources, false));
-    // An example of a panel shows "...", which is no statement.
-    if (record.example.find("...") == std::string_view::npos) CHECK(parsed.diagnostics.empty());
-  }
-}
-
-TEST_CASE("the reference page is that of the table") {
-  const std::string path = std::string(GARMENT_SOURCE_DIR) + "/docs/language.md";
-  const auto page = system_host().read_file(path, 1 << 20);
-  REQUIRE(page);
-  const std::string open = "GARMENT_UPDATE_DOCS=1 -->\n", shut = "<!-- end of the reference -->";
-  const std::size_t begin = page.value->find(open), end = page.value->find(shut);
-  REQUIRE(begin != std::string::npos);
-  REQUIRE(end != std::string::npos);
-  const std::string wanted = "\n" + reference_markdown() + "\n";
-  const std::size_t from = begin + open.size();
-  if (std::getenv("GARMENT_UPDATE_DOCS") != nullptr) {
-    REQUIRE(system_host().write_file(path, page.value->substr(0, from) + wanted + page.value->substr(end)));
-    return;
-  }
-  CHECK(page.value->substr(from, end - from) == wanted);
-}
