@@ -136,7 +136,10 @@ Keywords::Match ParseState::allowed_keyword(std::size_t at) const {
 
 bool ParseState::outer_statement_begins(std::size_t at) const {
   if (statements_.empty() || !statements_.back().in_block || !first_on_line(at)) return false;
-  const Keyword* keyword = keywords_.match(text_, at).keyword;
+  std::size_t word_begin = at;
+  if (word_at(text_, at) == "both")
+    for (word_begin += 4; is_blank(this->at(word_begin));) ++word_begin;
+  const Keyword* keyword = keywords_.match(text_, word_begin).keyword;
   if (!keyword || assignment_begins(at)) return false;
   std::string_view word = keyword->info->keyword;
   if (allowed_words().count(word) || indent_of(at) > statements_.back().indent) return false;

@@ -108,6 +108,17 @@ class ParseState {
     Block children;
   };
 
+  // ---- one slip, one message (cascades.cpp)
+
+  /// The mistake is what an earlier one made of the text: it is not told.
+  bool follows_from_earlier(const SyntaxError& error) const;
+  bool only_blanks_since_broken(std::size_t at) const;
+  /// After a mistake in the statement [begin, end): is it still known which blocks are open?
+  void judge_nesting(const SyntaxError& error, std::size_t begin, std::size_t end, bool block_expected);
+  void lose_nesting(std::size_t line);
+  /// A statement begins at `at`: at the top level and at the line's begin, blocks are known again.
+  void find_footing(std::size_t at);
+
   const WordSet& allowed_words() const;
   int indent_of(std::size_t at) const;
   bool first_on_line(std::size_t at) const;
@@ -145,6 +156,10 @@ class ParseState {
   bool stopped_ = false;
   bool left_open_ = false;
   bool end_reported_ = false;
+  bool lost_ = false;           // blocks and brackets do not match since `lost_line_`
+  std::size_t lost_line_ = 0;
+  bool fresh_ = false;          // a mistake was told since the last whole statement of the top level
+  std::size_t broken_end_ = 0;  // where the last broken statement ends
   mutable std::size_t indent_line_ =
       0;  // the last line asked for and its indentation: a line may hold many statements
   mutable int indent_ = -1;

@@ -43,6 +43,7 @@ void ParseState::begin_statement(Span keyword, std::string_view text, const Keyw
                  "state the inner part by itself"};
     throw SyntaxError{d, keyword.begin, false, true};
   }
+  find_footing(keyword.begin);
   Open open;
   open.statement.keyword = {info ? info->info->keyword : std::string(text), keyword};
   open.statement.span = keyword;
@@ -136,6 +137,7 @@ void ParseState::report_open_block(const Open& open, std::size_t at) {
   suspect_keyword_.clear();
   end_reported_ = end_reported_ || at_end;
   report(std::move(error));
+  if (!at_end) lose_nesting(line_of(at) - 1);  // the statement there may already be whole
 }
 
 void ParseState::end_else() {
@@ -165,22 +167,33 @@ void ParseState::end_statement(std::uint32_t end) {
     if (callee.kind == ExprKind::name) statement.name = Name{callee.text, callee.span, callee.children};
   }
   sink().push_back(std::move(statement));
+  if (statements_.empty() && !lost_) fresh_ = false;
 }
 
 void ParseState::break_statement(SyntaxError error, std::size_t begin, std::size_t end, std::size_t depth) {
   Statement statement;
-  if (statements_.size() > depth) statement = std::move(statements_[depth].statement);
+  bool block_expected = false;
+  if (statements_.size() > depth) {
+    const Keyword* keyword = statements_[depth].keyword;
+    block_expected = keyword && keyword->info->has_body && !statements_[depth].statement.body;
+    statement = std::move(statements_[depth].statement);
+  }
   while (statements_.size() > depth) statements_.pop_back();
   while (end > begin && (is_blank(text_[end - 1]) || text_[end - 1] == '\n')) --end;
   statement.span = span(begin, end);
   statement.broken = true;
   sink().push_back(std::move(statement));
+  const SyntaxError judged = error;
   report(std::move(error));
+  judge_nesting(judged, begin, end, block_expected);
+  broken_end_ = end;
 }
 
 void ParseState::report(SyntaxError error) {
   if (stopped_) return;
   (error.incomplete ? incomplete_ : final_) = true;
+  if (follows_from_earlier(error)) return;
+  fresh_ = true;
   Span place = error.diagnostic.labels.empty() ? Span{source_, 0, 0} : error.diagnostic.labels[0].span;
   diagnostics_.push_back(std::move(error.diagnostic));
   stopped_ = error.fatal || diagnostics_.size() >= kMaxErrors;
@@ -200,6 +213,7 @@ void ParseState::report_stray_brace(Span brace) {
                       {{brace, "one too many"}},
                       "remove it, or look for a missing `{` above"};
   report(std::move(error));
+  broken_end_ = brace.end;
 }
 
 }  // namespace garment::grammar

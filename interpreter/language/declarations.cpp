@@ -149,7 +149,7 @@ class Registrar {
       if (module_.library && (record == nullptr || !record->in_library))
         fail(program_, Message("G0322", "a used file may not have `" + keyword + "`", statement.keyword.span)
                            .help("it may have use, let, fn and fabric"));
-      if (keyword == "use") return run_use(program_, statement, scope);
+      if (keyword == "use") return use(statement, scope);
       if (nested && (keyword == "param" || keyword == "garment"))
         fail(program_,
              Message("G0322", "`" + keyword + "` stands at the top level only", statement.keyword.span));
@@ -161,10 +161,19 @@ class Registrar {
       item.declaration = declare(*name, statement, scope, nested, suffix);
       if (statement.broken || unsupported) item.declaration->state = Declaration::State::failed;
     } else if (statement.broken) {
-      module_.has_broken =
-          module_.has_broken || record == nullptr || record->declares_name || keyword == "fn";
+      module_.has_broken = module_.has_broken || record == nullptr || record->declares_name ||
+                           keyword == "fn" || keyword == "use";
     }
     if (!statement.broken && !unsupported) items.push_back(item);
+  }
+
+  void use(const Statement& statement, Scope& scope) {
+    try {
+      run_use(program_, statement, scope);
+    } catch (const Stop&) {  // the name it should have brought is no second mistake
+      module_.has_broken = true;
+      throw;
+    }
   }
 
   Declaration* declare(const grammar::Name& written, const Statement& statement, Scope& scope, bool nested,
@@ -176,7 +185,7 @@ class Registrar {
     try {
       check_new_name(program_, name, written.span, target);
     } catch (const Stop&) {  // what speaks of a refused name is no second mistake
-      module_.has_broken = module_.has_broken || !target.declared.contains(name);
+      module_.has_broken = true;
       throw;
     }
     Declaration& declaration = program_.declarations.emplace_back();

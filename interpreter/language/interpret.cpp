@@ -4,6 +4,7 @@
 
 #include "interpreter/language/acts.hpp"
 #include "interpreter/language/bodies.hpp"
+#include "interpreter/language/cascades.hpp"
 #include "interpreter/language/clauses.hpp"
 #include "interpreter/language/declarations.hpp"
 #include "interpreter/language/fabrics.hpp"
@@ -130,6 +131,7 @@ Interpretation interpret(grammar::Sources& sources, grammar::SourceId source, Ho
                      const Span &x = a.labels[0].span, &y = b.labels[0].span;
                      return x.source != y.source ? x.source < y.source : x.begin < y.begin;
                    });
+  drop_cascades(program.diagnostics, sources);
   for (const PanelInfo& info : program.panels) program.garment.panels.push_back(info.panel);
   for (const SeamInfo& info : program.seams)
     if (info.ready) program.garment.seams.push_back(info.seam);

@@ -1,0 +1,76 @@
+// Which mistakes only follow from an earlier one. One slip is told once: where brackets or blocks no longer
+// match, what stands below is misread until a statement of the top level begins anew.
+#include <algorithm>
+
+#include "grammar/parse_state.hpp"
+#include "grammar/text.hpp"
+
+namespace garment::grammar {
+namespace {
+
+bool is_brace(char c) { return c == '{' || c == '}'; }
+
+}  // namespace
+
+bool ParseState::only_blanks_since_broken(std::size_t at) const {
+  if (broken_end_ == 0 || at < broken_end_) return false;
+  return std::all_of(text_.begin() + static_cast<std::ptrdiff_t>(broken_end_),
+                     text_.begin() + static_cast<std::ptrdiff_t>(std::min(at, text_.size())),
+                     [](char c) { return is_blank(c) || c == '\n' || c == ';'; });
+}
+
+bool ParseState::follows_from_earlier(const SyntaxError& error) const {
+  const Diagnostic& d = error.diagnostic;
+  if (diagnostics_.empty() || error.fatal || d.labels.empty()) return false;
+  if (lost_) return true;
+  const std::size_t place = d.labels[0].span.begin;
+  const auto stands_at = [&](const Diagnostic& old) {
+    return !old.labels.empty() && (old.labels[0].span.begin == place);
+  };
+  if (std::any_of(diagnostics_.begin(), diagnostics_.end(), stands_at)) return true;
+  if (d.code == "G0205") return fresh_;
+  if (d.code == "G0209" && statements_.empty() && indent_of(place) > 0) return fresh_;
+  if (d.code == "G0202") return !is_word_start(at(place)) && only_blanks_since_broken(place);
+  // A block with a mistake inside: its } may be what was mistaken.
+  if (d.code == "G0204")
+    return std::any_of(diagnostics_.begin(), diagnostics_.end(), [&](const Diagnostic& old) {
+      return !old.labels.empty() && old.labels[0].span.begin >= place;
+    });
+  return false;
+}
+
+void ParseState::lose_nesting(std::size_t line) {
+  lost_ = true;
+  lost_line_ = line;
+}
+
+void ParseState::judge_nesting(const SyntaxError& error, std::size_t begin, std::size_t end,
+                               bool block_expected) {
+  int open = 0;
+  bool unbalanced = false, any = false;
+  for (std::size_t i = begin; i < end;) {
+    if (text_[i] == '"') {
+      i = end_of_string(text_, i);
+      continue;
+    }
+    if (text_[i] == '#') {
+      i = std::min(text_.find('\n', i), end);
+      continue;
+    }
+    if (text_[i] == '{') ++open, any = true;
+    if (text_[i] == '}' && --open < 0) unbalanced = true;
+    ++i;
+  }
+  const bool misplaced = error.diagnostic.code == "G0209";
+  const bool stray = statements_.empty() && indent_of(begin) > 0;
+  if (unbalanced || open != 0 || misplaced || stray || is_brace(at(error.position)) ||
+      (block_expected && !any))
+    lose_nesting(line_of(std::max<std::size_t>(error.position, begin)));
+}
+
+void ParseState::find_footing(std::size_t at) {
+  if (lost_ && statements_.empty() && first_on_line(at) && indent_of(at) == 0 && line_of(at) > lost_line_)
+    lost_ = false;
+}
+
+}  // namespace garment::grammar

@@ -1,0 +1,110 @@
+#include "interpreter/language/cascades.hpp"
+
+#include <algorithm>
+#include <string_view>
+
+namespace garment::interpreter {
+namespace {
+
+using grammar::Diagnostic;
+using grammar::Diagnostics;
+using grammar::Sources;
+
+bool is_error(const Diagnostic& d) { return d.severity == Severity::error; }
+bool is_syntax(const Diagnostic& d) {
+  return is_error(d) && (d.code.compare(0, 3, "G01") == 0 || d.code.compare(0, 3, "G02") == 0);
+}
+
+/// Mistakes after which it is not known which statements there are, or where they stand.
+bool hides_statements(const Diagnostic& d) {
+  constexpr std::string_view kInside[] = {"G0103", "G0104", "G0105", "G0106", "G0107", "G0206",
+                                          "G0208", "G0213", "G0214", "G0215", "G0217"};
+  return is_syntax(d) && std::find(std::begin(kInside), std::end(kInside), d.code) == std::end(kInside);
+}
+
+bool tells_a_name(const Diagnostic& d) { return d.code == "G0301" || d.code == "G0311"; }
+
+/// Line and source of the primary place; line 0 where there is none.
+std::pair<grammar::SourceId, std::uint32_t> line_of(const Diagnostic& d, const Sources& sources) {
+  if (d.labels.empty()) return {0, 0};
+  const grammar::Span& span = d.labels[0].span;
+  return {span.source, sources.place(span.source, span.begin).line};
+}
+
+bool near(const Diagnostic& a, const Diagnostic& b, const Sources& sources) {
+  const auto [source_a, line_a] = line_of(a, sources);
+  const auto [source_b, line_b] = line_of(b, sources);
+  return source_a == source_b && line_a != 0 && line_b != 0 && line_a <= line_b + 1 && line_b <= line_a + 1;
+}
+
+/// A statement that may not stand where it is read, in a file with a mistake in its syntax.
+bool misread(const Diagnostic& d, const Diagnostic& syntax) {
+  return d.code == "G0322" && !d.labels.empty() && !syntax.labels.empty() &&
+         d.labels[0].span.source == syntax.labels[0].span.source;
+}
+
+bool is_word_char(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+}
+
+/// The line of the primary place of `d` holds `word`.
+bool line_holds(const Diagnostic& d, std::string_view word, const Sources& sources) {
+  if (d.labels.empty() || word.empty()) return false;
+  const grammar::Span& span = d.labels[0].span;
+  const std::string& text = sources[span.source].text;
+  constexpr std::size_t kFar = 500;  // lines are short; one of a megabyte is not searched
+  const std::size_t last = std::min(text.size(), span.begin + kFar);
+  std::size_t begin = span.begin, end = span.begin;
+  while (begin > 0 && span.begin - begin < kFar && text[begin - 1] != '\n') --begin;
+  while (end < last && text[end] != '\n') ++end;
+  const std::string_view line = std::string_view(text).substr(begin, end - begin);
+  for (std::size_t at = line.find(word); at != std::string_view::npos; at = line.find(word, at + 1)) {
+    const bool opens = at == 0 || !is_word_char(line[at - 1]);
+    const bool ends = at + word.size() == line.size() || !is_word_char(line[at + word.size()]);
+    if (opens && ends) return true;
+  }
+  return false;
+}
+
+bool same_place(const Diagnostic& a, const Diagnostic& b) {
+  return !a.labels.empty() && !b.labels.empty() && a.labels[0].span == b.labels[0].span;
+}
+
+/// `later` says what `earlier`, above it in the text, has said.
+bool repeats(const Diagnostic& earlier, const Diagnostic& later) {
+  if (!is_error(earlier) || !is_error(later)) return false;
+  return same_place(earlier, later) ||
+         (tells_a_name(later) && earlier.code == later.code && earlier.message == later.message);
+}
+
+/// The unknown name stands in the line of another error.
+bool lost_its_declaration(const Diagnostic& d, const Diagnostics& all, const Sources& sources) {
+  if (d.code != "G0301" || d.labels.empty()) return false;
+  const std::string_view name = sources.text(d.labels[0].span);
+  return std::any_of(all.begin(), all.end(), [&](const Diagnostic& other) {
+    return is_error(other) && other.code != "G0301" && line_holds(other, name, sources);
+  });
+}
+
+}  // namespace
+
+void drop_cascades(Diagnostics& diagnostics, const Sources& sources) {
+  const Diagnostics all = diagnostics;
+  const bool hidden = std::any_of(all.begin(), all.end(), hides_statements);
+  const auto follows_syntax = [&](const Diagnostic& d) {
+    if (is_syntax(d)) return false;
+    if (hidden) return true;
+    return is_error(d) && std::any_of(all.begin(), all.end(), [&](const Diagnostic& other) {
+             return is_syntax(other) && (near(d, other, sources) || misread(d, other));
+           });
+  };
+  diagnostics.clear();
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const bool repeated = std::any_of(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(k),
+                                      [&](const Diagnostic& earlier) { return repeats(earlier, all[k]); });
+    if (!follows_syntax(all[k]) && !repeated && !lost_its_declaration(all[k], all, sources))
+      diagnostics.push_back(all[k]);
+  }
+}
+
+}  // namespace garment::interpreter
