@@ -39,11 +39,13 @@ ExitCode load_model(Project& project, std::optional<model::Model>& model, const 
 
 }  // namespace
 
-ExitCode check(const ProjectOptions& options, Host& host, Terminal& terminal) {
+ExitCode check(const ProjectOptions& given, bool whole, Host& host, Terminal& terminal) {
   Project project;
   terminal.keep_diagnostics();
+  ProjectOptions options = given;
+  options.build_bodies = whole;
   ExitCode code = load(project, options, host, terminal);
-  if (code == kOk) code = check_model(project, terminal);
+  if (code == kOk) code = check_model(project, whole, terminal);
   const design::Garment& g = project.result.garment;
   if (terminal.options().json) {
     nlohmann::ordered_json all{{"ok", code == kOk}};

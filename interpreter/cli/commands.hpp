@@ -6,7 +6,8 @@
 
 namespace garment::cli {
 
-ExitCode check(const ProjectOptions& options, Host& host, Terminal& terminal);
+/// Says what is wrong with a script. `whole` also builds its bodies and the particle model, as a run would.
+ExitCode check(const ProjectOptions& options, bool whole, Host& host, Terminal& terminal);
 ExitCode parse(const std::string& file, Host& host, Terminal& terminal);
 ExitCode show_model(const ProjectOptions& options, Host& host, Terminal& terminal);
 

@@ -33,6 +33,7 @@ struct Options {
   FormatOptions format;
   ImportOptions import_options;
   GoldenOptions golden;
+  bool whole_check = false;
   std::string parse_file, code;
 };
 
@@ -46,7 +47,8 @@ void add_project(CLI::App* command, ProjectOptions& p) {
   command->add_option("file", p.file, "script (.garment) or sewing-pattern specification (.json)")->required();
   command->add_option("-p,--param", p.params, "set a parameter: -p long=70cm")->allow_extra_args(false);
   command->add_option("--body", p.body, "OBJ file of the body that a specification is worn by");
-  command->add_option("--library", p.stdlib_dir, "folder of the standard library");
+  command->add_option("--library", p.library_dirs, "folder where `use NAME` looks first; may be given again")
+      ->allow_extra_args(false);
   command->add_flag("--any-path", p.any_path, "let the script read files outside its own folder");
 }
 
@@ -72,6 +74,7 @@ int main(int argc, char** argv) {
 
   auto* check_command = app.add_subcommand("check", "evaluate a script and say what is wrong with it");
   add_project(check_command, o.project);
+  check_command->add_flag("--model", o.whole_check, "also build the bodies and the particle model, as `run` does");
   add_common(check_command, o);
   auto* model_command = app.add_subcommand("model", "show the particle model: counts, mass, areas, lengths; --json all of it");
   add_project(model_command, o.project);
@@ -111,7 +114,7 @@ int main(int argc, char** argv) {
   garment::Host& host = garment::system_host();
   Terminal terminal(o.terminal);
   if (*run_command) return run(o.run, host, terminal);
-  if (*check_command) return check(o.project, host, terminal);
+  if (*check_command) return check(o.project, o.whole_check, host, terminal);
   if (*model_command) return show_model(o.project, host, terminal);
   if (*parse_command) return parse(o.parse_file, host, terminal);
   if (*format_command) return format(o.format, host, terminal);

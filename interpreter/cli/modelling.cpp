@@ -11,10 +11,11 @@ std::optional<model::Model> build_model(Project& project, Terminal& terminal) {
   return std::move(built.model);
 }
 
-ExitCode check_model(Project& project, Terminal& terminal) {
+ExitCode check_model(Project& project, bool whole, Terminal& terminal) {
   Findings missing = modeller::find_unmodelled(project.result.garment, Severity::warning);
   show(interpreter::to_diagnostics(missing, project.result.origins), project.sources, terminal);
-  if (!missing.empty()) return kOk;
+  const bool quick = !whole && !project.is_pattern && !project.result.garment.panels.empty();
+  if (!missing.empty() || quick) return kOk;
   return build_model(project, terminal) ? kOk : kDiagnostics;
 }
 

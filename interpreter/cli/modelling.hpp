@@ -11,7 +11,7 @@ namespace garment::cli {
 std::optional<model::Model> build_model(Project& project, Terminal& terminal);
 
 /// Says what would be wrong with the model. What is declared and cannot be modelled yet is told as a warning; the rest of
-/// the garment is then not modelled.
-ExitCode check_model(Project& project, Terminal& terminal);
+/// the garment is then not modelled. Only `whole` builds the model of a script; a specification's is always built.
+ExitCode check_model(Project& project, bool whole, Terminal& terminal);
 
 }  // namespace garment::cli

@@ -123,8 +123,10 @@ ExitCode load(Project& project, const ProjectOptions& options, Host& host, Termi
   if (pattern) return load_pattern(project, options, *text.value, host, terminal);
   interpreter::InterpretOptions interpret_options;
   interpret_options.stdlib_dir = options.stdlib_dir;
+  interpret_options.library_dirs = options.library_dirs;
   interpret_options.script_dir = folder_of(options.file);
   interpret_options.any_path = options.any_path;
+  interpret_options.build_bodies = options.build_bodies;
   if (!parse_params(options.params, interpret_options.params, terminal)) return kUsage;
   project.source = project.sources.add(options.file, std::move(*text.value));
   project.result = interpreter::interpret(project.sources, project.source, host, interpret_options);

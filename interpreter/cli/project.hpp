@@ -18,7 +18,9 @@ struct ProjectOptions {
   std::vector<std::string> params;     ///< "long=70cm"
   std::string body;                    ///< OBJ file that a specification is worn by
   std::string stdlib_dir;
+  std::vector<std::string> library_dirs;  ///< where `use NAME` looks first
   bool any_path = false;               ///< files may lie outside the script's folder
+  bool build_bodies = true;            ///< see InterpretOptions
 };
 
 struct Project {

@@ -125,8 +125,9 @@ Verdict judge(Program& program, const Statement& statement, Scope& scope) {
 void run_garment(Program& program, const Item& item) {
   const Statement& statement = *item.statement;
   Scope& scope = *item.scope;
-  if (program.title_seen) fail(program, Message("G0314", "`garment` is given twice", statement.keyword.span));
-  program.title_seen = true;
+  Module& module = *scope.module;
+  if (module.titled) fail(program, Message("G0314", "`garment` is given twice", statement.keyword.span));
+  module.titled = true;
   if (statement.operands.empty() || statement.operands.size() > 2)
     fail(program, Message("G0312", "`garment` takes the edition and a title", statement.keyword.span)
                       .help("as in `garment 1 \"skirt\"`"));
@@ -138,8 +139,9 @@ void run_garment(Program& program, const Item& item) {
                                 " of the language; this program knows edition 1",
                             edition.span)
                         .help("write `garment 1`, or use a newer program"));
-  if (statement.operands.size() == 2)
-    program.garment.title = eval_text(program, statement.operands[1], scope, "the title");
+  if (statement.operands.size() < 2) return;
+  const std::string title = eval_text(program, statement.operands[1], scope, "the title");
+  if (!module.library) program.garment.title = title;
 }
 
 void run_drape(Program& program, const Item& item) {

@@ -95,40 +95,105 @@ const body::Body* built_body(Program& program, int index, Span asked_at) {
   return program.built[k].get();
 }
 
+namespace {
+
+/// What a body offers by name.
+struct Offer {
+  std::string body;
+  std::vector<std::string> levels, parts;
+  const body::Frame* frame = nullptr;  ///< of a mannequin
+};
+
+bool has(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// The frame of a mannequin, which takes a hundredth of the time that its surface takes; null for other
+/// bodies.
+const body::Frame* frame_of(Program& program, int index) {
+  if (const auto known = program.frames.find(index); known != program.frames.end()) return &known->second;
+  const std::size_t k = static_cast<std::size_t>(index);
+  if (program.build_failed[k]) return nullptr;
+  body::FrameResult made = body::make_frame(program.garment.bodies[k]);
+  for (Diagnostic& diagnostic : to_diagnostics(made.findings, program.origins)) {
+    Message message("", "", Span{});
+    message.diagnostic = std::move(diagnostic);
+    report(program, std::move(message));
+    program.build_failed[k] = true;
+  }
+  if (!made.frame) return nullptr;
+  return &program.frames.emplace(index, std::move(*made.frame)).first->second;
+}
+
+Offer offer_of(Program& program, int index, Span asked_at) {
+  Offer offer;
+  offer.body = program.garment.bodies[static_cast<std::size_t>(index)].name;
+  offer.frame = frame_of(program, index);
+  if (offer.frame != nullptr) {
+    for (const auto& [name, level] : offer.frame->levels) offer.levels.push_back(name);
+    offer.parts = offer.frame->parts;
+    return offer;
+  }
+  const body::Body* body = built_body(program, index, asked_at);
+  if (body == nullptr) throw Stop{};
+  offer.levels = level_names(*body);
+  offer.parts = part_names(*body);
+  return offer;
+}
+
+[[noreturn]] void fail_level(Program& program, const Offer& offer, const std::string& name, Span span) {
+  fail(program, Message("G0611", "body `" + offer.body + "` has no level `" + name + "`", span)
+                    .help(help_for(name, offer.levels, "levels")));
+}
+
+}  // namespace
+
 Value body_member(Program& program, const Expr& expr, int index, const std::string& path,
                   const std::string& name) {
-  if (path.empty() || (name != "girth" && name != "height"))
-    return Value{BodyPlaceValue{index, path.empty() ? name : path + '.' + name}};
+  const bool figure = name == "girth" || name == "height";
+  if (path.empty() && !figure)
+    if (const body::Frame* frame = frame_of(program, index))
+      if (const auto length = frame->lengths.find(name); length != frame->lengths.end())
+        return number_value(length->second, kLength);
+  if (path.empty() || !figure) return Value{BodyPlaceValue{index, path.empty() ? name : path + '.' + name}};
+  const Span place = expr.children[0].span;
+  const Offer offer = offer_of(program, index, expr.span);
+  if (!has(offer.levels, path)) fail_level(program, offer, path, place);
+  if (offer.frame != nullptr) {
+    const body::FrameLevel& level = offer.frame->levels.at(path);
+    const std::optional<double>& known = name == "girth" ? level.girth : level.height;
+    if (known) return number_value(*known, kLength);
+  }
   const body::Body* body = built_body(program, index, expr.span);
   if (body == nullptr) throw Stop{};
   const auto level = body->levels.find(path);
-  if (level == body->levels.end())
-    fail(program,
-         Message("G0611", "body `" + body->name + "` has no level `" + path + "`", expr.children[0].span)
-             .help(help_for(path, level_names(*body), "levels")));
+  if (level == body->levels.end()) fail_level(program, offer, path, place);
   return number_value(name == "girth" ? level->second.girth : level->second.height, kLength);
 }
 
 std::string checked_level(Program& program, const BodyPlaceValue& place, Span span) {
-  const body::Body* body = built_body(program, place.body, span);
-  if (body == nullptr) throw Stop{};
-  if (!body->levels.contains(place.path))
-    fail(program, Message("G0611", "body `" + body->name + "` has no level `" + place.path + "`", span)
-                      .help(help_for(place.path, level_names(*body), "levels")));
+  const Offer offer = offer_of(program, place.body, span);
+  if (!has(offer.levels, place.path)) fail_level(program, offer, place.path, span);
   return place.path;
 }
 
 std::string checked_part(Program& program, const BodyPlaceValue& place, Span span, bool side) {
-  const body::Body* body = built_body(program, place.body, span);
-  if (body == nullptr) throw Stop{};
-  std::vector<std::string> names = part_names(*body);
-  const bool torso = body->parts.contains("torso");
-  if (side && torso) names.insert(names.end(), {"front", "back", "left", "right"});
-  const bool good = is_side(place.path) ? side && torso : body->parts.contains(place.path);
+  Offer offer = offer_of(program, place.body, span);
+  const bool torso = has(offer.parts, "torso");
+  const bool good = is_side(place.path) ? side && torso : has(offer.parts, place.path);
+  if (side && torso) offer.parts.insert(offer.parts.end(), {"front", "back", "left", "right"});
   if (!good)
-    fail(program, Message("G0611", "body `" + body->name + "` has no part `" + place.path + "`", span)
-                      .help(help_for(place.path, names, "parts")));
+    fail(program, Message("G0611", "body `" + offer.body + "` has no part `" + place.path + "`", span)
+                      .help(help_for(place.path, offer.parts, "parts")));
   return place.path;
+}
+
+void check_bodies(Program& program) {
+  for (std::size_t k = 0; k < program.garment.bodies.size(); ++k) {
+    const int index = static_cast<int>(k);
+    if (program.options.build_bodies || frame_of(program, index) == nullptr)
+      built_body(program, index, program.origins[program.garment.bodies[k].origin.value]);
+  }
 }
 
 }  // namespace garment::interpreter

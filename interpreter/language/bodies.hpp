@@ -14,7 +14,11 @@ Value evaluate_body(Program& program, Declaration& declaration);
 /// The built body; null where it could not be built (said once).
 const body::Body* built_body(Program& program, int index, Span asked_at);
 
-/// `form.waist`, `form.arm.left`, `form.waist.girth`.
+/// Builds the bodies that nobody asked for yet. Without `build_bodies` mannequins are left unbuilt: their measures are
+/// checked.
+void check_bodies(Program& program);
+
+/// `form.waist`, `form.arm.left`, `form.waist.girth`, `form.back_length`.
 Value body_member(Program& program, const Expr& expr, int index, const std::string& path,
                   const std::string& name);
 

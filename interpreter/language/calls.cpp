@@ -4,6 +4,7 @@
 #include "interpreter/language/declarations.hpp"
 #include "interpreter/language/edges.hpp"
 #include "interpreter/language/evaluate.hpp"
+#include "interpreter/language/formal_parameters.hpp"
 #include "interpreter/language/function_table.hpp"
 
 namespace garment::interpreter {
@@ -24,136 +25,24 @@ struct CallGuard {
   ~CallGuard() { program.calls.pop_back(); }
 };
 
-struct FormalParameter {
-  std::string name;
-  std::string kind;  ///< "length", "number", ...; empty: anything
-  const Expr* standard = nullptr;
-};
-
-constexpr std::pair<std::string_view, Dimension> kQuantityKinds[] = {{"number", kNumber}, {"length", kLength},
-                                                                     {"angle", kAngle},   {"area", kArea},
-                                                                     {"time", kTime},     {"mass", kMass}};
-constexpr std::string_view kOtherKinds[] = {"text",   "truth", "point", "list",
-                                            "fabric", "body",  "panel", "edge"};
-
-std::vector<std::string> kind_names() {
-  std::vector<std::string> names(std::begin(kOtherKinds), std::end(kOtherKinds));
-  for (const auto& [name, dimension] : kQuantityKinds) names.emplace_back(name);
-  return names;
-}
-
-bool is_kind(const Value& value, const std::string& kind) {
-  if (kind == "text") return value.as<std::string>() != nullptr;
-  if (kind == "truth") return value.as<bool>() != nullptr;
-  if (kind == "point") return value.as<PointValue>() != nullptr;
-  if (kind == "list") return value.as<ListValue>() != nullptr;
-  if (kind == "fabric") return value.as<FabricValue>() != nullptr;
-  if (kind == "body") return value.as<BodyValue>() != nullptr;
-  if (kind == "panel") return value.as<PanelValue>() != nullptr;
-  return value.as<EdgeValue>() != nullptr;
-}
-
-/// The value as its parameter takes it, or a report and Stop.
-Value checked_kind(Program& program, const FormalParameter& parameter, Value value, Span span) {
-  if (parameter.kind.empty()) return value;
-  for (const auto& [name, dimension] : kQuantityKinds)
-    if (name == parameter.kind)
-      return Value{as_quantity(program, value, span, dimension, "`" + parameter.name + "`")};
-  if (is_kind(value, parameter.kind)) return value;
-  const bool vowel = parameter.kind == "edge";
-  fail(program, Message("G0306",
-                        kind_of(value) + " where `" + parameter.name + "` takes " +
-                            (parameter.kind == "text" ? ""
-                             : vowel                  ? "an "
-                                                      : "a ") +
-                            parameter.kind,
-                        span));
-}
-
-/// Parameters of `fn f(a, b: length, c: length = 2 cm)`; they stand as the arguments of a call.
-std::vector<FormalParameter> parameters_of(Program& program, const Expr& head) {
-  std::vector<FormalParameter> parameters;
-  const std::vector<std::string> kinds = kind_names();
-  for (std::size_t k = 1; k < head.children.size(); ++k) {
-    const Expr& child = head.children[k];
-    FormalParameter parameter;
-    const bool labelled = k < head.labels.size() + 1 && !head.labels[k - 1].text.empty();
-    const bool standard = child.kind == ExprKind::binary && child.text == "=" && child.children.size() == 2;
-    const Expr& word = standard ? child.children[0] : child;
-    if (word.kind != ExprKind::name || (standard && !labelled))
-      fail(program,
-           Message("G0307", "a parameter is `name`, `name: kind` or `name: kind = default`", child.span));
-    if (labelled) {
-      parameter.name = head.labels[k - 1].text;
-      parameter.kind = word.text;
-      if (std::find(kinds.begin(), kinds.end(), parameter.kind) == kinds.end()) {
-        std::string hint = did_you_mean(parameter.kind, kinds);
-        if (hint.empty()) {
-          for (const std::string& kind : kinds) hint += (hint.empty() ? "kinds are " : ", ") + kind;
-        }
-        fail(program, Message("G0301", "there is no kind `" + parameter.kind + "`", word.span).help(hint));
-      }
-      if (standard) parameter.standard = &child.children[1];
-    } else {
-      parameter.name = word.text;
-    }
-    for (const FormalParameter& other : parameters)
-      if (other.name == parameter.name)
-        fail(program, Message("G0302", "the parameter `" + parameter.name + "` is there twice", child.span));
-    parameters.push_back(parameter);
-  }
-  return parameters;
-}
-
-std::string label_of(const Expr& call, std::size_t k) {
-  return k - 1 < call.labels.size() ? call.labels[k - 1].text : "";
-}
-
-[[noreturn]] void fail_label(Program& program, const Expr& call, std::size_t k, const std::string& function,
-                             const std::vector<std::string>& names) {
-  Message message("G0307", "`" + function + "` takes no `" + label_of(call, k) + "`",
-                  call.labels[k - 1].span);
-  std::string hint = did_you_mean(label_of(call, k), names);
-  if (hint.empty()) {
-    for (const std::string& name : names) hint += (hint.empty() ? "it takes " : ", ") + name;
-  }
-  fail(program, message.help(hint));
-}
-
 /// Puts the arguments of a call, and the defaults of what is not given, into the scope of the function.
 [[gnu::noinline]] void bind_arguments(Program& program, const Declaration& function, const Expr& expr,
                                       Scope& scope, Scope& local) {
   const Statement& statement = *function.statement;
   const std::vector<FormalParameter> parameters = parameters_of(program, statement.operands[0]);
-  std::vector<std::string> names;
-  for (const FormalParameter& parameter : parameters) names.push_back(parameter.name);
-  std::size_t next = 0;
-  for (std::size_t k = 1; k < expr.children.size(); ++k) {
-    std::string name = label_of(expr, k);
-    if (name.empty()) {
-      if (next >= parameters.size())
-        fail(program, Message("G0307",
-                              "`" + function.name + "` takes " + std::to_string(parameters.size()) +
-                                  (parameters.size() == 1 ? " value" : " values") + ", here is one more",
-                              expr.children[k].span));
-      name = parameters[next++].name;
-    } else if (std::find(names.begin(), names.end(), name) == names.end()) {
-      fail_label(program, expr, k, function.name, names);
-    }
-    if (local.values.contains(name))
-      fail(program, Message("G0314", "`" + name + "` is given twice", expr.children[k].span));
-    const auto formal = std::find(names.begin(), names.end(), name) - names.begin();
-    local.values.emplace(name, checked_kind(program, parameters[static_cast<std::size_t>(formal)],
-                                            eval(program, expr.children[k], scope), expr.children[k].span));
+  const std::vector<std::size_t> given =
+      match_arguments(program, function.name, parameters, expr, statement.operands[0].span);
+  for (std::size_t p = 0; p < parameters.size(); ++p) {
+    if (given[p] == 0) continue;
+    const Expr& argument = expr.children[given[p]];
+    local.values.emplace(parameters[p].name, checked_kind(program, parameters[p].name, parameters[p].kind,
+                                                          eval(program, argument, scope), argument.span));
   }
   for (const FormalParameter& parameter : parameters) {
     if (local.values.contains(parameter.name)) continue;
-    if (parameter.standard == nullptr)
-      fail(program, Message("G0307", "`" + function.name + "` needs `" + parameter.name + "`", expr.span)
-                        .also(statement.operands[0].span, "declared here"));
     local.values.emplace(parameter.name,
-                         checked_kind(program, parameter, eval(program, *parameter.standard, local),
-                                      parameter.standard->span));
+                         checked_kind(program, parameter.name, parameter.kind,
+                                      eval(program, *parameter.standard, local), parameter.standard->span));
   }
 }
 

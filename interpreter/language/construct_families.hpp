@@ -19,6 +19,7 @@ inline constexpr ConstructFamily kConstructFamilies[] = {
     {"Cloth", detail::cloth_constructs},
     {"Panels", detail::panel_constructs},
     {"Assembly", detail::assembly_constructs},
+    {"Components", detail::structure_constructs},
     {"Scene", detail::scene_constructs},
     {"Acts", detail::acts_constructs},
     {"Words whose meaning is still to come", detail::later_constructs},

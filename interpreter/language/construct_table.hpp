@@ -74,6 +74,7 @@ std::vector<ConstructRecord> basics_constructs();
 std::vector<ConstructRecord> cloth_constructs();
 std::vector<ConstructRecord> panel_constructs();
 std::vector<ConstructRecord> assembly_constructs();
+std::vector<ConstructRecord> structure_constructs();
 std::vector<ConstructRecord> scene_constructs();
 std::vector<ConstructRecord> acts_constructs();
 std::vector<ConstructRecord> later_constructs();

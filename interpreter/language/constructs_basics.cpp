@@ -18,6 +18,7 @@ std::vector<ConstructRecord> basics_constructs() {
        .form = "garment EDITION \"TITLE\"",
        .doc = "the edition of the language and the garment's title",
        .example = "garment 1 \"darted skirt\"",
+       .in_library = true,
        .run = run_garment},
       {.keyword = "use",
        .form = "use NAME [, NAME ...] | use \"FILE\" as NAME",
@@ -61,6 +62,7 @@ std::vector<ConstructRecord> basics_constructs() {
        .doc = "refuses the garment where the condition does not hold",
        .example = "assert length(front.waist) > 20 cm \"waist is cut too small\"",
        .clauses = {{"within", "% | VALUE", "how near `==` must come"}},
+       .in_library = true,
        .run = run_assert},
   };
 }

@@ -30,9 +30,6 @@ ConstructRecord inside(ConstructRecord record) {
 
 const Words kPanelBody = {"outline", "grain", "resolution", "notch", "dart",      "label", "place",
                           "hole",    "line",  "point",      "slit",  "allowance", "pleat", "tuck"};
-const Words kComponentBody = {"param", "let",  "fn",     "fabric",  "panel",  "seam",  "place",  "attach",
-                              "pin",   "hem",  "zip",    "iron",    "region", "layer", "button", "port",
-                              "part",  "join", "assert", "measure", "tack",   "starch"};
 const Words kActs = {"drape", "expect", "save", "record", "release"};
 
 }  // namespace
@@ -52,12 +49,6 @@ std::vector<ConstructRecord> later_constructs() {
       later("pad", true, "pad NAME on PANEL", "a soft accessory with thickness", {"on", "at", "thickness"}),
       later("button", true, "button NAME on PANEL at POINT through PANEL at POINT", "a button and its hole",
             {"on", "at", "through", "mass", "diameter", "shank", "kind"}),
-      later("component", false, "component NAME(PARAMETERS) { ... }", "a reusable part of a garment", {},
-            true, kComponentBody),
-      inside(later("port", true, "port NAME = EDGE", "where a component is joined", {"="})),
-      later("part", true, "part NAME = COMPONENT(...)", "one use of a component", {"="}),
-      later("join", false, "join PORT to EDGE", "sews a port",
-            {"to", "ease", "gather", "stretch", "reversed"}),
       later("solve", true, "solve NAME in RANGE so CONDITION", "finds a value", {"in", "so"}),
       later("pair", false, "pair panel NAME of FABRIC { ... }", "two mirrored panels", {"of", "on", "like"},
             true, kPanelBody),

@@ -4,8 +4,9 @@
 #include <cmath>
 
 #include "interpreter/language/evaluate.hpp"
-#include "interpreter/language/files.hpp"
 #include "interpreter/language/function_table.hpp"
+#include "interpreter/language/libraries.hpp"
+#include "interpreter/language/parts.hpp"
 
 namespace garment::interpreter {
 namespace {
@@ -71,7 +72,13 @@ const grammar::Name* declared_name(const Statement& statement, grammar::Name& ma
 
 class Registrar {
  public:
-  Registrar(Program& program, Module& module) : program_(program), module_(module) {}
+  /// Takes statements of `module` into `root`; of a part, under its name.
+  Registrar(Program& program, Module& module, Scope& root, const Part* part)
+      : program_(program),
+        module_(module),
+        root_(root),
+        part_(part),
+        all_(part == nullptr ? module.items : program.main->items) {}
 
   void take_block(const grammar::Block& block, Scope& scope, bool nested) {
     // Plain declarations first, so that loop ranges may speak of what stands below them.
@@ -81,8 +88,11 @@ class Registrar {
       guarded([&] { take(block[k], scope, nested, items[k]); });
     }
     for (std::size_t k = 0; k < block.size(); ++k) {
-      module_.items.insert(module_.items.end(), items[k].begin(), items[k].end());
+      all_.insert(all_.end(), items[k].begin(), items[k].end());
       if (is_control(block[k])) guarded([&] { expand(block[k], scope); });
+      for (const Item& item : items[k])
+        if (item.statement->keyword.text == "part" && item.declaration != nullptr)
+          guarded([&] { expand_part(program_, item); });
     }
   }
 
@@ -146,14 +156,15 @@ class Registrar {
       report(program_, Message("G0315", "`" + keyword + "` is not supported yet", statement.keyword.span)
                            .help(kStillToCome));
     if (!statement.broken && !unsupported) {
-      if (module_.library && (record == nullptr || !record->in_library))
+      if (module_.library && part_ == nullptr && (record == nullptr || !record->in_library))
         fail(program_, Message("G0322", "a used file may not have `" + keyword + "`", statement.keyword.span)
-                           .help("it may have use, let, fn and fabric"));
+                           .help("it may have use, let, fn, fabric, component and assert"));
       if (keyword == "use") return use(statement, scope);
       if (nested && (keyword == "param" || keyword == "garment"))
         fail(program_,
              Message("G0322", "`" + keyword + "` stands at the top level only", statement.keyword.span));
     }
+    if (keyword == "join" && !statement.broken) return take_join(statement, scope, suffix, items);
     Item item{&statement, &scope, nullptr};
     grammar::Name made;
     const grammar::Name* name = declared_name(statement, made);
@@ -176,12 +187,27 @@ class Registrar {
     }
   }
 
+  /// A join declares a seam that is called as its port.
+  void take_join(const Statement& statement, Scope& scope, const std::string& suffix,
+                 std::vector<Item>& items) {
+    const Statement& seam = make_join(program_, statement);
+    Declaration& declaration = program_.declarations.emplace_back();
+    declaration.name = prefix() + join_name(program_, statement, scope) + suffix;
+    declaration.statement = &seam;
+    declaration.scope = &scope;
+    declaration.module = &module_;
+    declaration.evaluate = evaluate_join;
+    items.push_back({&seam, &scope, &declaration});
+  }
+
+  std::string prefix() const { return part_ == nullptr ? "" : part_->name + '.'; }
+
   Declaration* declare(const grammar::Name& written, const Statement& statement, Scope& scope, bool nested,
                        const std::string& suffix) {
     const std::string name = fill_name(program_, written, scope) + suffix;
     const std::string& keyword = statement.keyword.text;
     const bool local = nested && (keyword == "let" || keyword == "fn");
-    Scope& target = local ? scope : *module_.scope;
+    Scope& target = local ? scope : root_;
     try {
       check_new_name(program_, name, written.span, target);
     } catch (const Stop&) {  // what speaks of a refused name is no second mistake
@@ -189,7 +215,7 @@ class Registrar {
       throw;
     }
     Declaration& declaration = program_.declarations.emplace_back();
-    declaration.name = name;
+    declaration.name = prefix() + name;
     declaration.statement = &statement;
     declaration.scope = &scope;
     declaration.module = &module_;
@@ -199,49 +225,59 @@ class Registrar {
 
   Program& program_;
   Module& module_;
+  Scope& root_;
+  const Part* part_;
+  std::vector<Item>& all_;
 };
 
-/// `front.waist_dart.depth` as words; empty if it is not of that shape.
-std::vector<std::string> target_path(Program& program, const Expr& expr, Scope& scope) {
-  if (expr.kind == ExprKind::name) return {name_of(program, expr, scope)};
-  if (expr.kind != ExprKind::member || expr.children.empty()) return {};
-  std::vector<std::string> path = target_path(program, expr.children[0], scope);
-  if (!path.empty()) path.push_back(name_of(program, expr, scope));
-  return path;
+/// An argument or a param: what can be set as a whole.
+bool is_settable(const Declaration& declaration) {
+  return declaration.statement->keyword.text == "param" || is_argument(declaration);
+}
+
+[[noreturn]] void fail_target(Program& program, const Expr& target, Scope& scope) {
+  const Expr* first = &target;
+  while (first->kind == ExprKind::member && !first->children.empty()) first = &first->children[0];
+  if (first->kind != ExprKind::name)
+    fail(program, Message("G0311", "this cannot be assigned to", target.span));
+  const std::string name = name_of(program, *first, scope);
+  if (find_local(scope, name) != nullptr)
+    fail(program, Message("G0311", "a library cannot be changed", target.span)
+                      .help("make your own: `fabric mine = fabrics.denim with { ... }`"));
+  fail_unknown_name(program, name, target.span, scope);
 }
 
 void attach_assignment(Program& program, const Item& item) {
   const Statement& statement = *item.statement;
   if (statement.operands.size() != 2) throw Stop{};
   const Expr& target = statement.operands[0];
-  std::vector<std::string> path = target_path(program, target, *item.scope);
-  if (path.empty()) fail(program, Message("G0311", "this cannot be assigned to", target.span));
-  Declaration* declaration = find_declaration(*item.scope, path[0]);
-  std::size_t used = 1;
-  if (declaration == nullptr && path.size() > 1 &&
-      (declaration = find_declaration(*item.scope, path[0] + '.' + path[1])))
-    used = 2;
-  if (declaration == nullptr) {
-    if (find_local(*item.scope, path[0]) != nullptr)
-      fail(program, Message("G0311", "a library cannot be changed", target.span)
-                        .help("make your own: `fabric mine = fabrics.denim with { ... }`"));
-    fail_unknown_name(program, path[0], target.span, *item.scope);
-  }
-  if (declaration->state == Declaration::State::failed) throw Stop{};
-  path.erase(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(used));
-  if (path.empty() && declaration->statement->keyword.text != "param")
+  const DeclaredPath path = find_path(program, target, *item.scope);
+  if (path.declaration == nullptr) fail_target(program, target, *item.scope);
+  Declaration& declaration = *path.declaration;
+  if (declaration.state == Declaration::State::failed) throw Stop{};
+  if (!path.rest.empty() && declaration.statement->keyword.text == "part")
+    fail_part_member(program, program.parts[static_cast<std::size_t>(declaration.index)], path.rest[0],
+                     target.span);
+  if (path.rest.empty() && !is_settable(declaration))
     fail(program, Message("G0311",
-                          "`" + declaration->name + "` is a " + declaration->statement->keyword.text +
+                          "`" + declaration.name + "` is a " + declaration.statement->keyword.text +
                               "; only a param can be set as a whole",
                           target.span)
-                      .also(declaration->statement->span, "declared here"));
-  for (const Override& other : declaration->overrides)
-    if (other.path == path)
+                      .also(declaration.statement->span, "declared here"));
+  const int depth = item.scope->part == nullptr ? 0 : item.scope->part->depth;
+  for (Override& other : declaration.overrides) {
+    if (other.path != path.rest) continue;
+    if (other.depth == depth)
       fail(program,
            Message("G0321", "`" + std::string(program.sources.text(target.span)) + "` is assigned twice",
                    target.span)
                .also(other.span, "first here"));
-  declaration->overrides.push_back({path, &statement.operands[1], item.scope, target.span});
+    // What is said outside a part holds over what its component says.
+    if (depth < other.depth)
+      other = {path.rest, &statement.operands[1], item.scope, target.span, false, depth};
+    return;
+  }
+  declaration.overrides.push_back({path.rest, &statement.operands[1], item.scope, target.span, false, depth});
 }
 
 }  // namespace
@@ -269,7 +305,12 @@ void check_new_name(Program& program, const std::string& name, Span span, Scope&
 void register_module(Program& program, Module& module) {
   module.scope = &program.new_scope(nullptr);
   module.scope->module = &module;
-  Registrar(program, module).take_block(module.script.statements, *module.scope, false);
+  Registrar(program, module, *module.scope, nullptr)
+      .take_block(module.script.statements, *module.scope, false);
+}
+
+void register_part(Program& program, const Part& part, const grammar::Block& block) {
+  Registrar(program, *part.component->module, *part.scope, &part).take_block(block, *part.scope, false);
 }
 
 void settle_declarations(Program& program, Module& module) {
@@ -281,6 +322,7 @@ void settle_declarations(Program& program, Module& module) {
   }
   for (const Item& item : module.items) {
     if (item.statement->keyword.text != "=") continue;
+    PartGuard guard(program, item.scope->part);
     try {
       attach_assignment(program, item);
     } catch (const Stop&) {
@@ -292,6 +334,7 @@ void check_assignments(Program& program, Module& module) {
   for (const Item& item : module.items) {
     if (item.declaration == nullptr || item.declaration->state != Declaration::State::done) continue;
     const ConstructRecord* record = find_construct(item.statement->keyword.text);
+    PartGuard guard(program, item.scope->part);
     for (const Override& change : item.declaration->overrides) {
       if (change.used) continue;
       std::string path = item.declaration->name;

@@ -75,6 +75,12 @@ struct DepthGuard {
   if (const Value* local = find_local(scope, name)) return *local;
   if (Declaration* declaration = find_declaration(scope, name))
     return force(program, *declaration, expr.span);
+  // `both` puts its half into every operand that is declared in halves.
+  if (!scope.half.empty())
+    if (Declaration* declaration = find_declaration(scope, name + '.' + scope.half)) {
+      for (const Scope* at = &scope; at != nullptr; at = at->parent) at->half_used = true;
+      return force(program, *declaration, expr.span);
+    }
   if (const FunctionRecord* function = find_function(name)) {
     if (function->bare) return call_builtin(program, *function, expr, scope);
     fail(program, Message("G0306", "`" + name + "` is a function, it must be called", expr.span)

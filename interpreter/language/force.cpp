@@ -4,6 +4,7 @@
 #include "interpreter/language/clauses.hpp"
 #include "interpreter/language/declarations.hpp"
 #include "interpreter/language/evaluate.hpp"
+#include "interpreter/language/parts.hpp"
 
 namespace garment::interpreter {
 namespace {
@@ -28,6 +29,7 @@ Span name_span(const Declaration& declaration) {
 }
 
 [[gnu::noinline]] Value evaluate(Program& program, Declaration& declaration) {
+  if (declaration.evaluate != nullptr) return declaration.evaluate(program, declaration);
   const ConstructRecord* record = find_construct(declaration.statement->keyword.text);
   if (record == nullptr || record->evaluate == nullptr) fail_no_value(program, declaration);
   return record->evaluate(program, declaration);
@@ -76,6 +78,7 @@ const Value& force(Program& program, Declaration& declaration, Span asked_at) {
   if (declaration.state == State::failed) throw Stop{};
   if (declaration.state == State::running) fail_cycle(program, declaration, asked_at);
   RunningGuard guard(program, declaration);
+  PartGuard part(program, declaration.scope->part);
   const bool keep = !changes(declaration);
   declaration.state = State::running;
   try {

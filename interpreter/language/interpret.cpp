@@ -8,8 +8,10 @@
 #include "interpreter/language/clauses.hpp"
 #include "interpreter/language/declarations.hpp"
 #include "interpreter/language/fabrics.hpp"
+#include "interpreter/language/libraries.hpp"
 #include "interpreter/language/panels.hpp"
 #include "interpreter/language/parameters.hpp"
+#include "interpreter/language/parts.hpp"
 #include "interpreter/language/placements.hpp"
 #include "interpreter/language/recipe.hpp"
 #include "interpreter/language/seams.hpp"
@@ -28,6 +30,7 @@ void guarded(const F& run) {
 void run_item(Program& program, const Item& item) {
   const Statement& statement = *item.statement;
   const ConstructRecord* record = find_construct(statement.keyword.text);
+  PartGuard guard(program, item.scope->part);
   if (item.declaration != nullptr && (record == nullptr || record->run == nullptr)) {
     force(program, *item.declaration, statement.span);
     return;
@@ -53,6 +56,7 @@ void check_both(Program& program) {
 void run_all(Program& program) {
   Module& module = *program.main;
   register_module(program, module);
+  check_libraries(program);
   settle_declarations(program, module);
   find_backs(program);
   check_given_parameters(program);
@@ -65,15 +69,17 @@ void run_all(Program& program) {
   for (const Item& item : module.items) guarded([&] { run_item(program, item); });
   const std::vector<Item> places = program.panel_places;
   for (const Item& item : places)
-    guarded([&] { run_place(program, item); });
+    guarded([&] {
+      PartGuard guard(program, item.scope->part);
+      run_place(program, item);
+    });
   check_assignments(program, module);
   if (program.has_error) return;  // what follows would speak of things that are not there
   check_both(program);
+  check_components(program);
   check_chains(program);
   if (!program.has_error) check_unsewn(program);
-  if (program.options.build_bodies)
-    for (std::size_t k = 0; k < program.garment.bodies.size(); ++k)
-      built_body(program, static_cast<int>(k), program.origins[program.garment.bodies[k].origin.value]);
+  check_bodies(program);
 }
 
 void sort_parameters(Program& program) {

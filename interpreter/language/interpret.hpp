@@ -21,10 +21,13 @@ struct Program;
 
 struct InterpretOptions {
   std::string stdlib_dir;                     ///< folder of the standard library
+  std::vector<std::string> library_dirs;      ///< where `use NAME` looks first
   std::string script_dir;                     ///< files named by the script are looked up below it
   std::map<std::string, std::string> params;  ///< name -> expression text, as after `-p`
   bool any_path = false;                      ///< files may lie outside `script_dir`
-  bool build_bodies = true;                   ///< build all declared bodies, not only those asked for
+  /// Build all declared bodies. Otherwise mannequins are built only where a script asks what their measures do not
+  /// tell, and Interpretation::bodies is empty for the others.
+  bool build_bodies = true;
   /// How bodies are built; empty: body::build_body.
   std::function<body::BodyResult(const design::Body&, Host&, const std::string&)> build_body;
 };

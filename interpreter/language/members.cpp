@@ -7,6 +7,7 @@
 #include "interpreter/language/evaluate.hpp"
 #include "interpreter/language/fabrics.hpp"
 #include "interpreter/language/function_table.hpp"
+#include "interpreter/language/parts.hpp"
 
 namespace garment::interpreter {
 namespace {
@@ -135,6 +136,8 @@ Value eval_member(Program& program, const Expr& expr, Scope& scope) {
   if (const auto* v = base.as<DartValue>()) return dart_member(program, expr, *v, name);
   if (const auto* v = base.as<RecordValue>()) return record_member(program, expr, **v, name);
   if (const auto* v = base.as<PointValue>()) return point_member(program, expr, *v, name);
+  if (const auto* v = base.as<ThingValue>(); v != nullptr && v->keyword == "part")
+    return part_member(program, expr, *v, name);
   if (const auto* v = base.as<FabricValue>()) {
     if (const auto field = fabric_field(*v->fabric, name)) return *field;
     fail_member(program, expr, "fabric `" + v->fabric->name + "`", name, fabric_field_names());

@@ -7,6 +7,7 @@
 #include "interpreter/language/edges.hpp"
 #include "interpreter/language/fabrics.hpp"
 #include "interpreter/language/outline.hpp"
+#include "interpreter/language/parts.hpp"
 #include "interpreter/language/recipe.hpp"
 #include "runtime/base/portable_math.hpp"
 #include "runtime/design/unfold.hpp"
@@ -354,7 +355,9 @@ bool names_back(const Statement& statement) {
 }  // namespace
 
 int reserve_panel(Program& program, const Declaration& declaration) {
-  program.panels.emplace_back().panel.name = declaration.name;
+  PanelInfo& info = program.panels.emplace_back();
+  info.panel.name = declaration.name;
+  info.part = declaration.scope->part;
   return static_cast<int>(program.panels.size()) - 1;
 }
 
@@ -370,10 +373,10 @@ void find_backs(Program& program) {
         if (inner.keyword.text == "place" && names_back(inner))
           program.panels[static_cast<std::size_t>(item.declaration->index)].on_back = true;
     if (item.statement->keyword.text != "place" || item.statement->operands.size() != 1) continue;
-    const Expr& panel = item.statement->operands[0];
-    if (panel.kind != ExprKind::name || !names_back(*item.statement)) continue;
+    if (!names_back(*item.statement)) continue;
     try {
-      const Declaration* declaration = find_declaration(*item.scope, name_of(program, panel, *item.scope));
+      const Declaration* declaration =
+          find_path(program, item.statement->operands[0], *item.scope).declaration;
       if (declaration != nullptr && declaration->index >= 0 &&
           declaration->statement->keyword.text == "panel")
         program.panels[static_cast<std::size_t>(declaration->index)].on_back = true;

@@ -17,6 +17,7 @@ Scope& Program::new_scope(Scope* parent) {
   if (parent != nullptr) {
     scope.module = parent->module;
     scope.half = parent->half;
+    scope.part = parent->part;
   }
   return scope;
 }
@@ -45,21 +46,43 @@ Message& Message::help(std::string text) {
   return *this;
 }
 
+namespace {
+
+/// What goes wrong inside a library is the caller's news: the call or part in the script is the primary
+/// place. In a component of the script the place stays, and the part is shown beside it.
+void show_caller(const Program& program, Diagnostic& d) {
+  auto is_part = [&](Span span) {
+    for (const Part* at = program.part; at != nullptr; at = at->outer)
+      if (at->span == span) return true;
+    return false;
+  };
+  if (!program.in_library(d.labels[0].span)) {
+    if (program.part != nullptr && !program.in_library(program.part->span) &&
+        program.part->span != d.labels[0].span)
+      d.labels.push_back({program.part->span, "in this part"});
+    return;
+  }
+  for (std::size_t k = program.calls.size(); k-- > 0;) {
+    if (program.in_library(program.calls[k])) continue;
+    d.labels.insert(d.labels.begin(),
+                    {program.calls[k], is_part(program.calls[k]) ? "in this part" : "in this call"});
+    return;
+  }
+}
+
+}  // namespace
+
 void report(Program& program, Message message) {
   Diagnostic& d = message.diagnostic;
-  // What goes wrong inside a library is the caller's news: the call in the script is the primary place.
-  if (!d.labels.empty() && program.in_library(d.labels[0].span)) {
-    for (std::size_t k = program.calls.size(); k-- > 0;) {
-      if (program.in_library(program.calls[k])) continue;
-      d.labels.insert(d.labels.begin(), {program.calls[k], "in this call"});
-      break;
-    }
-  }
+  const Span place = d.labels.empty() ? Span{} : d.labels[0].span;
+  if (!d.labels.empty()) show_caller(program, d);
   if (d.severity == Severity::error) program.has_error = true;
-  for (const Diagnostic& old : program.diagnostics)
-    if (old.code == d.code && !old.labels.empty() && old.labels[0].span == d.labels[0].span &&
-        old.message == d.message)
-      return;
+  for (const Diagnostic& old : program.diagnostics) {
+    if (old.code != d.code || old.labels.empty() || d.labels.empty()) continue;
+    // Two parts of one component say the same mistake twice, each under its own name.
+    const bool again = program.part != nullptr && old.labels[0].span == place && d.labels[0].span == place;
+    if (again || (old.labels[0].span == d.labels[0].span && old.message == d.message)) return;
+  }
   if (program.diagnostics.size() < kMaxDiagnostics) program.diagnostics.push_back(std::move(d));
 }
 

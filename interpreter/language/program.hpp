@@ -14,6 +14,7 @@
 #include "interpreter/language/interpret.hpp"
 #include "interpreter/language/value.hpp"
 #include "runtime/body/body.hpp"
+#include "runtime/body/frame.hpp"
 
 namespace garment::interpreter {
 
@@ -29,6 +30,7 @@ struct Stop {};
 /// A budget is spent: nothing goes on. Never leaves the room.
 struct Exhausted {};
 
+struct Declaration;
 struct Scope;
 struct Recipe;
 
@@ -46,6 +48,17 @@ struct Override {
   Scope* scope = nullptr;
   Span span;
   bool used = false;
+  int depth = 0;  ///< how many parts deep it is said; what is said outside holds
+};
+
+/// One use of a component. Its declarations live in `scope`, its arguments too.
+struct Part {
+  std::string name;  ///< "left_sleeve"; of a part in a part "left_sleeve.cuff"
+  const Part* outer = nullptr;
+  Declaration* component = nullptr;
+  Scope* scope = nullptr;
+  Span span;  ///< the `part` statement
+  int depth = 1;
 };
 
 struct Declaration {
@@ -58,6 +71,8 @@ struct Declaration {
   int index = -1;  ///< among panels, bodies, seams or pins
   Value value;
   std::vector<Override> overrides;
+  /// Gives the value in place of the construct's record: arguments of a part.
+  Value (*evaluate)(Program&, Declaration&) = nullptr;
 };
 
 /// Names visible at a place. Statement scopes live in Program::scopes; a call's scope lives on the stack.
@@ -66,6 +81,7 @@ struct Scope {
   Module* module = nullptr;
   std::string half;  ///< "left" or "right" inside `both`
   mutable bool half_used = false;
+  const Part* part = nullptr;  ///< the part whose block this is in
   std::map<std::string, Value, std::less<>> values;
   std::map<std::string, Declaration*, std::less<>> declared;
 };
@@ -82,7 +98,11 @@ struct Module {
   std::string name;
   bool library = false;
   int depth = 0;
+  bool loading = false;  ///< its `use` statements are being run
   bool has_broken = false;  ///< a broken statement may have declared anything: unknown names stay unsaid
+  std::map<std::string, Span> uses;  ///< name -> where it is used here
+  Span used_at{};                    ///< of a library: the `use` in the script that leads to it
+  bool titled = false;               ///< its `garment` line was met
   grammar::Script script;
   Scope* scope = nullptr;
   std::vector<Item> items;
@@ -99,6 +119,7 @@ struct NamedEdge {
 struct PanelInfo {
   design::Panel panel;
   bool ready = false;
+  const Part* part = nullptr;  ///< that it is declared in
   bool folded = false;
   double area = 0;                ///< of the outline, m^2
   bool counter_clockwise = true;  ///< sense of Panel::edges
@@ -112,6 +133,7 @@ struct SeamInfo {
   std::vector<EdgeValue> sides;  ///< as written
   std::vector<Span> spans;
   bool ready = false;
+  const Part* part = nullptr;  ///< that it is declared in
 };
 
 struct Program {
@@ -135,18 +157,20 @@ struct Program {
   std::map<const design::Fabric*, int> fabric_index;
   std::vector<std::shared_ptr<const body::Body>> built;  ///< by body index; empty until asked
   std::vector<bool> build_failed;
+  std::map<int, body::Frame> frames;  ///< of mannequins, by body index
+  std::deque<Part> parts;             ///< ThingValue::index of a `part` is its place here
   std::set<int> placed;
   std::vector<Act> acts;
   std::vector<MeasureValue> measures;
   std::vector<Parameter> parameters;
   std::map<std::string, std::string> given;  ///< parameters not yet met
-  bool title_seen = false;
 
   grammar::Diagnostics diagnostics;
   bool has_error = false;
   std::vector<Span> origins{Span{}};
   std::vector<Declaration*> running;     ///< for cycles
   std::vector<Span> calls;               ///< places of the calls being run
+  const Part* part = nullptr;            ///< whose block is being evaluated
   const DrapeMeasures* drape = nullptr;  ///< while an `expect` is evaluated
   std::size_t steps = 0;
   int depth = 0;

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "interpreter/language/edges.hpp"
+#include "interpreter/language/parts.hpp"
 #include "interpreter/language/seams.hpp"
 
 namespace garment::interpreter {
@@ -110,6 +111,7 @@ void warn_sewn_twice(Program& program, const Cover& all) {
         const SeamInfo &one = program.seams[static_cast<std::size_t>(a.seam)],
                        &two = program.seams[static_cast<std::size_t>(b.seam)];
         const design::Panel& panel = program.panels[static_cast<std::size_t>(key.first)].panel;
+        PartGuard guard(program, two.part);
         report(program,
                Message("G0508",
                        "edge `" + panel.name + '.' + panel.edges[static_cast<std::size_t>(key.second)].name +
@@ -135,6 +137,7 @@ void check_chains(Program& program) {
   }
   for (SeamInfo& info : program.seams) {
     if (!info.ready) continue;
+    PartGuard guard(program, info.part);
     for (std::size_t k = 0; k < info.seam.sides.size(); ++k) {
       design::SeamSide& side = info.seam.sides[k];
       check_links(program, corners, info, k);
@@ -153,6 +156,7 @@ void check_unsewn(Program& program) {
     for (const EdgePart& part : attachment.parts) cover(all, part, -1);
   for (std::size_t p = 0; p < program.panels.size(); ++p) {
     const PanelInfo& info = program.panels[p];
+    PartGuard guard(program, info.part);
     auto open_length = [&](const NamedEdge& edge) {
       double open = 0;
       for (const EdgePart& part : edge.parts) {

@@ -211,7 +211,9 @@ class SeamMaker {
 }  // namespace
 
 int reserve_seam(Program& program, const Declaration& declaration) {
-  program.seams.emplace_back().seam.name = declaration.name;
+  SeamInfo& info = program.seams.emplace_back();
+  info.seam.name = declaration.name;
+  info.part = declaration.scope->part;
   return static_cast<int>(program.seams.size()) - 1;
 }
 

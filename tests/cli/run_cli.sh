@@ -108,6 +108,22 @@ complains "error[G0901]"
 run 1 check empty.garment
 complains "the garment has no panels"
 
+# ---- check --model also builds what a run would build
+sed 's/^place cloth.*/place cloth at (0, 1 m, 0)/; s/to (30 cm, 0)/to (30 cm, 0)/' square.garment >checked.garment
+run 0 check checked.garment --model
+
+# ---- libraries are looked for in the folders of --library first
+mkdir -p trims more_trims
+printf 'let tape = 2 cm\n' >trims/trims.garment
+printf 'let tape = 3 cm\nlet cord = 4 mm\n' >more_trims/trims.garment
+printf 'let cord = 5 mm\n' >more_trims/cords.garment
+{ printf 'use trims, cords\nassert trims.tape == 2 cm\nassert cords.cord == 5 mm\n'; grep -v '^garment' square.garment; } >trimmed.garment
+run 1 check trimmed.garment
+complains "error[G0318]"
+run 0 check trimmed.garment --library trims --library more_trims
+run 1 check trimmed.garment --library more_trims --library trims
+complains "error[G0320]"
+
 # ---- parameters
 run 0 model square.garment
 cp out.txt model.txt
