@@ -56,6 +56,11 @@ void show_caller(const Program& program, Diagnostic& d) {
       if (at->span == span) return true;
     return false;
   };
+  auto is_use = [&](Span span) {
+    for (const Module& module : program.modules)
+      if (module.library && module.used_at == span) return true;
+    return false;
+  };
   if (!program.in_library(d.labels[0].span)) {
     if (program.part != nullptr && !program.in_library(program.part->span) &&
         program.part->span != d.labels[0].span)
@@ -64,8 +69,9 @@ void show_caller(const Program& program, Diagnostic& d) {
   }
   for (std::size_t k = program.calls.size(); k-- > 0;) {
     if (program.in_library(program.calls[k])) continue;
-    d.labels.insert(d.labels.begin(),
-                    {program.calls[k], is_part(program.calls[k]) ? "in this part" : "in this call"});
+    d.labels.insert(d.labels.begin(), {program.calls[k], is_part(program.calls[k])  ? "in this part"
+                                                         : is_use(program.calls[k]) ? "used here"
+                                                                                    : "in this call"});
     return;
   }
 }
