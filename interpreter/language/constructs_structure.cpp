@@ -29,7 +29,7 @@ std::vector<ConstructRecord> structure_constructs() {
        .form = "component NAME(PARAMETER: KIND = DEFAULT, ...) { ... port NAME = EDGE }",
        .doc = "a part of a garment, written once; its names are its own, and a part brings them in under the "
               "part's name",
-       .example = "component flare(length_below: length, share = 1/2) { let more = share * length_below }",
+       .example = "component flare(length_below: length, share: number = 1/2) { let more = share * length_below }",
        .has_body = true,
        .body_keywords = kComponentBody,
        .in_library = true,
