@@ -28,8 +28,6 @@ ConstructRecord inside(ConstructRecord record) {
   return record;
 }
 
-const Words kPanelBody = {"outline", "grain", "resolution", "notch", "dart",      "label", "place",
-                          "hole",    "line",  "point",      "slit",  "allowance", "pleat", "tuck"};
 const Words kActs = {"drape", "expect", "save", "record", "release"};
 
 }  // namespace
@@ -50,18 +48,6 @@ std::vector<ConstructRecord> later_constructs() {
       later("button", true, "button NAME on PANEL at POINT through PANEL at POINT", "a button and its hole",
             {"on", "at", "through", "mass", "diameter", "shank", "kind"}),
       later("solve", true, "solve NAME in RANGE so CONDITION", "finds a value", {"in", "so"}),
-      later("pair", false, "pair panel NAME of FABRIC { ... }", "two mirrored panels", {"of", "on", "like"},
-            true, kPanelBody),
-      inside(
-          later("hole", true, "hole NAME { ... }", "a hole in a panel", {"from"}, true, {"edge", "close"})),
-      inside(later("line", true, "line NAME from POINT to POINT", "a line inside a panel",
-                   {"from", "to", "through", "control", "controls", "arc", "bulge", "tangents"})),
-      inside(later("point", true, "point NAME at POINT", "a named point of a panel", {"at", "on"})),
-      inside(later("slit", true, "slit NAME along LINE", "a cut inside a panel", {"along"})),
-      inside(later("allowance", false, "allowance LENGTH [on EDGE]", "seam allowance", {"on"})),
-      inside(later("pleat", true, "pleat NAME on EDGE at POSITION", "a pleat",
-                   {"on", "at", "width", "depth", "underlay", "knife", "box", "inverted", "toward"})),
-      inside(later("tuck", true, "tuck NAME on EDGE at POSITION", "a tuck", {"on", "at", "width", "length"})),
       later("slash", false, "slash PANEL along LINE spread LENGTH", "opens a panel along a line",
             {"along", "spread"}),
       later("move", false, "move EDGE by (DX, DY)", "moves an edge", {"by"}),

@@ -62,11 +62,6 @@ const grammar::Name* declared_name(const Statement& statement, grammar::Name& ma
     made = {name.text, name.span, {}};
     return &made;
   }
-  if (statement.keyword.text == "pair" && statement.operands.size() > 1 &&
-      statement.operands[1].kind == ExprKind::name) {
-    made = {statement.operands[1].text, statement.operands[1].span, {}};
-    return &made;
-  }
   return nullptr;
 }
 
@@ -165,6 +160,7 @@ class Registrar {
              Message("G0322", "`" + keyword + "` stands at the top level only", statement.keyword.span));
     }
     if (keyword == "join" && !statement.broken) return take_join(statement, scope, suffix, items);
+    if (keyword == "pair panel") return take_pair(statement, scope, nested, items);
     Item item{&statement, &scope, nullptr};
     grammar::Name made;
     const grammar::Name* name = declared_name(statement, made);
@@ -201,6 +197,31 @@ class Registrar {
   }
 
   std::string prefix() const { return part_ == nullptr ? "" : part_->name + '.'; }
+
+  /// `pair panel NAME`: NAME.left as drawn, and NAME.right, its image.
+  void take_pair(const Statement& statement, Scope& scope, bool nested, std::vector<Item>& items) {
+    if (!statement.name) {
+      module_.has_broken = module_.has_broken || statement.broken;
+      return;
+    }
+    if (!scope.half.empty())
+      fail(program_, Message("G0322", "`pair panel` makes a left and a right panel already", statement.keyword.span)
+                         .help("leave `both` out"));
+    check_new_name(program_, fill_name(program_, *statement.name, scope), statement.name->span, root_);
+    Declaration* left = nullptr;
+    for (const char* half : {"left", "right"}) {
+      Scope& side = program_.new_scope(&scope);
+      side.half = half;
+      side.half_used = true;
+      Item item{&statement, &side, declare(*statement.name, statement, side, nested, std::string(".") + half)};
+      item.declaration->pair_left = left;
+      if (left == nullptr) left = item.declaration;
+      if (statement.broken)
+        item.declaration->state = Declaration::State::failed;
+      else
+        items.push_back(item);
+    }
+  }
 
   Declaration* declare(const grammar::Name& written, const Statement& statement, Scope& scope, bool nested,
                        const std::string& suffix) {
@@ -247,6 +268,26 @@ bool is_settable(const Declaration& declaration) {
   fail_unknown_name(program, name, target.span, scope);
 }
 
+/// Puts the assignment `item` to what it changes of `declaration`.
+void assign_to(Program& program, const Item& item, const std::vector<std::string>& rest, Declaration& declaration) {
+  const Statement& statement = *item.statement;
+  const Expr& target = statement.operands[0];
+  const int depth = item.scope->part == nullptr ? 0 : item.scope->part->depth;
+  for (Override& other : declaration.overrides) {
+    if (other.path != rest) continue;
+    if (other.depth == depth)
+      fail(program,
+           Message("G0321", "`" + std::string(program.sources.text(target.span)) + "` is assigned twice",
+                   target.span)
+               .also(other.span, "first here"));
+    // What is said outside a part holds over what its component says.
+    if (depth < other.depth)
+      other = {rest, &statement.operands[1], item.scope, target.span, false, depth};
+    return;
+  }
+  declaration.overrides.push_back({rest, &statement.operands[1], item.scope, target.span, false, depth});
+}
+
 void attach_assignment(Program& program, const Item& item) {
   const Statement& statement = *item.statement;
   if (statement.operands.size() != 2) throw Stop{};
@@ -264,20 +305,8 @@ void attach_assignment(Program& program, const Item& item) {
                               "; only a param can be set as a whole",
                           target.span)
                       .also(declaration.statement->span, "declared here"));
-  const int depth = item.scope->part == nullptr ? 0 : item.scope->part->depth;
-  for (Override& other : declaration.overrides) {
-    if (other.path != path.rest) continue;
-    if (other.depth == depth)
-      fail(program,
-           Message("G0321", "`" + std::string(program.sources.text(target.span)) + "` is assigned twice",
-                   target.span)
-               .also(other.span, "first here"));
-    // What is said outside a part holds over what its component says.
-    if (depth < other.depth)
-      other = {path.rest, &statement.operands[1], item.scope, target.span, false, depth};
-    return;
-  }
-  declaration.overrides.push_back({path.rest, &statement.operands[1], item.scope, target.span, false, depth});
+  assign_to(program, item, path.rest, declaration);
+  if (path.twin != nullptr) assign_to(program, item, path.rest, *path.twin);
 }
 
 }  // namespace
@@ -291,7 +320,11 @@ void check_new_name(Program& program, const std::string& name, Span span, Scope&
   if (name == "start" || name == "end" || name == "true" || name == "false")
     fail(program,
          Message("G0303", "`" + name + "` has a meaning of its own and cannot be a name", span).help(longer));
-  const auto declared = scope.declared.find(name);
+  auto declared = scope.declared.find(name);
+  if (declared == scope.declared.end()) {  // a pair takes the name of both
+    const auto pair = scope.declared.find(name + ".left");
+    if (pair != scope.declared.end() && pair->second->statement->keyword.text == "pair panel") declared = pair;
+  }
   if (declared != scope.declared.end() || scope.values.contains(name)) {
     Message message("G0302", "the name `" + name + "` is taken", span);
     if (declared != scope.declared.end() && declared->second->statement != nullptr) {
@@ -331,12 +364,15 @@ void settle_declarations(Program& program, Module& module) {
 }
 
 void check_assignments(Program& program, Module& module) {
+  std::vector<Span> told;  // what changes a left and a right thing is wrong once
   for (const Item& item : module.items) {
     if (item.declaration == nullptr || item.declaration->state != Declaration::State::done) continue;
     const ConstructRecord* record = find_construct(item.statement->keyword.text);
     PartGuard guard(program, item.scope->part);
     for (const Override& change : item.declaration->overrides) {
-      if (change.used) continue;
+      const bool twin = std::find(told.begin(), told.end(), change.span) != told.end();
+      if (change.used || twin) continue;
+      told.push_back(change.span);
       std::string path = item.declaration->name;
       for (const std::string& word : change.path) path += '.' + word;
       std::vector<std::string> words;

@@ -37,6 +37,16 @@ double dart_area(const design::Panel& panel, const design::EdgeDart& dart) {
   return 0;
 }
 
+/// Sense in which the hole that edge `k` of Panel::hole_edges belongs to is drawn.
+bool hole_counter_clockwise(const design::Panel& panel, int k) {
+  double area = 0;
+  for (const design::Hole& hole : panel.holes)
+    for (int j = hole.first; j < hole.first + hole.count; ++j)
+      if (k >= hole.first && k < hole.first + hole.count)
+        area += panel.hole_edges[static_cast<std::size_t>(j)].curve.area_term();
+  return area > 0;
+}
+
 }  // namespace
 
 std::vector<std::string> edge_names(const PanelInfo& panel) {
@@ -66,14 +76,17 @@ double cut_length(const EdgeValue& edge) {
 
 double sewn_length(const Program& program, const design::EdgePart& part) {
   const design::Panel& panel = panel_of(program, part.panel);
-  const std::string& name = panel.edges[static_cast<std::size_t>(part.edge)].name;
+  const std::string& name = design::edge_of(panel, part).name;
   const double lo = std::min(part.from, part.to), hi = std::max(part.from, part.to);
   double length = hi - lo;
-  for (const design::EdgeDart& dart : panel.darts) {
-    if (dart.edge != name) continue;
-    const double a = std::max(lo, dart.at - dart.width / 2), b = std::min(hi, dart.at + dart.width / 2);
-    if (b > a) length -= b - a;
-  }
+  auto close = [&](double from, double to) { length -= std::max(0.0, std::min(hi, to) - std::max(lo, from)); };
+  for (const design::EdgeDart& dart : panel.darts)
+    if (dart.edge == name) close(dart.at - dart.width / 2, dart.at + dart.width / 2);
+  for (const design::Pleat& pleat : panel.pleats)
+    for (int k = 0; k < pleat.count && pleat.edge == name; ++k) {
+      const double middle = pleat.at + k * pleat.spacing;
+      close(middle - pleat.take() / 2, middle + pleat.take() / 2);
+    }
   return length;
 }
 
@@ -114,8 +127,7 @@ design::Point2 point_at(const Program& program, const EdgeSpan& span, double s) 
     const double length = part_length(part);
     if (s <= length || k + 1 == span.parts.size()) {
       const double at = std::clamp(s, 0.0, length);
-      return panel_of(program, part.panel)
-          .edges[static_cast<std::size_t>(part.edge)]
+      return design::edge_of(panel_of(program, part.panel), part)
           .curve.point_at(part.to >= part.from ? part.from + at : part.from - at);
     }
     s -= length;
@@ -127,7 +139,7 @@ std::optional<double> notch_position(const Program& program, const EdgeSpan& spa
   double done = 0;
   for (const design::EdgePart& part : span.parts) {
     const design::Panel& panel = panel_of(program, part.panel);
-    const std::string& edge = panel.edges[static_cast<std::size_t>(part.edge)].name;
+    const std::string& edge = design::edge_of(panel, part).name;
     for (const design::Notch& mark : panel.notches) {
       std::string_view plain = mark.name;
       if (const std::size_t dot = plain.rfind('.'); dot != std::string_view::npos)
@@ -180,6 +192,14 @@ double eval_position(Program& program, const std::vector<Expr>& values, Scope& s
 double cloth_area(const PanelInfo& info) {
   double area = info.area;
   for (const design::EdgeDart& dart : info.panel.darts) area -= dart_area(info.panel, dart);
+  for (const design::InsideDart& dart : info.panel.inside_darts)
+    area -= dart.width * (dart.to - dart.from).norm() / 2;
+  for (const design::Hole& hole : info.panel.holes) {
+    double loop = 0;
+    for (int k = hole.first; k < hole.first + hole.count; ++k)
+      loop += info.panel.hole_edges[static_cast<std::size_t>(k)].curve.area_term();
+    area -= std::fabs(loop);
+  }
   return area;
 }
 
@@ -192,7 +212,11 @@ EdgeSpan reversed(EdgeSpan span) {
 EdgeSpan counter_clockwise(const Program& program, const EdgeSpan& span) {
   if (span.parts.empty()) return span;
   const bool with_curve = span.parts[0].to >= span.parts[0].from;
-  const bool loop = program.panels[static_cast<std::size_t>(span.panel)].counter_clockwise;
+  const PanelInfo& info = program.panels[static_cast<std::size_t>(span.panel)];
+  const design::EdgePart& first = span.parts[0];
+  if (first.on == design::EdgePart::On::line) return span;
+  bool loop = info.counter_clockwise;
+  if (first.on == design::EdgePart::On::hole) loop = !hole_counter_clockwise(info.panel, first.edge);
   return with_curve == loop ? span : reversed(span);
 }
 

@@ -16,7 +16,7 @@ const NamedEdge* find_edge(const PanelInfo& panel, std::string_view half, std::s
 /// Length as cut, m.
 double cut_length(const EdgeSpan& span);
 double cut_length(const EdgeValue& edge);
-/// Length as sewn: mouths of darts are closed.
+/// Length as sewn: mouths of darts are closed, pleats and tucks folded.
 double sewn_length(const Program& program, const design::EdgePart& part);
 double sewn_length(const Program& program, const EdgeSpan& span);
 double sewn_length(const Program& program, const EdgeValue& edge);
@@ -35,10 +35,11 @@ double eval_position(Program& program, const std::vector<Expr>& values, Scope& s
                      const std::function<std::optional<double>(std::string_view)>& mark, Span span,
                      const std::string& what);
 
-/// Area of a panel with its darts cut away, m^2.
+/// Area of a panel with its darts and holes cut away, m^2.
 double cloth_area(const PanelInfo& panel);
 
-/// The part with both ends turned to run with the loop counter-clockwise, face up.
+/// The part with both ends turned to run with its loop so that the cloth lies to the left, face up: counter-clockwise
+/// round an outline, clockwise round a hole. A line inside stays as drawn.
 EdgeSpan counter_clockwise(const Program& program, const EdgeSpan& span);
 EdgeSpan reversed(EdgeSpan span);
 

@@ -20,6 +20,9 @@ std::string name_of(Program& program, const Expr& expr, Scope& scope);
 
 /// Declared thing or builtin of that name; nothing if there is none.
 Declaration* find_declaration(Scope& scope, std::string_view name);
+/// Of what is declared left and right (a pair, or by `both`): the one of the scope's half; nothing if nothing of that name
+/// is. Reports and throws Stop where the scope has no half.
+Declaration* find_half(Program& program, Scope& scope, const std::string& name, Span span);
 const Value* find_local(Scope& scope, std::string_view name);
 /// Names that could be meant at this place.
 std::vector<std::string> visible_names(const Scope& scope);

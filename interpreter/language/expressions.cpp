@@ -1,4 +1,4 @@
-#include "interpreter/language/evaluate.hpp"
+#include "interpreter/language/drawing.hpp"
 #include "interpreter/language/function_table.hpp"
 #include "runtime/base/portable_math.hpp"
 
@@ -86,6 +86,8 @@ struct DepthGuard {
     fail(program, Message("G0306", "`" + name + "` is a function, it must be called", expr.span)
                       .help("write `" + std::string(function->form) + "`"));
   }
+  if (Declaration* half = find_half(program, scope, name, expr.span)) return force(program, *half, expr.span);
+  if (const auto drawn = drawn_member(program, scope, name)) return *drawn;
   fail_unknown_name(program, name, expr.span, scope);
 }
 

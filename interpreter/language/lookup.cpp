@@ -60,6 +60,17 @@ Declaration* find_declaration(Scope& scope, std::string_view name) {
   return nullptr;
 }
 
+Declaration* find_half(Program& program, Scope& scope, const std::string& name, Span span) {
+  Declaration* left = find_declaration(scope, name + ".left");
+  Declaration* right = find_declaration(scope, name + ".right");
+  if (left == nullptr || right == nullptr) return nullptr;
+  if (scope.half.empty())
+    fail(program, Message("G0311", "`" + name + "` is there twice, left and right", span)
+                      .help("write `" + name + ".left` or `" + name + ".right`, or put `both` before the statement"));
+  for (const Scope* at = &scope; at != nullptr; at = at->parent) at->half_used = true;
+  return scope.half == "left" ? left : right;
+}
+
 std::vector<std::string> visible_names(const Scope& scope) {
   std::vector<std::string> names;
   for (const Scope* at = &scope; at != nullptr; at = at->parent) {

@@ -40,6 +40,13 @@ EdgeValue edge_value(int panel, const PanelInfo& info, const NamedEdge& edge) {
   return EdgeValue{{span}};
 }
 
+std::optional<design::Point2> interior_point(const design::Panel& panel, const std::string& half,
+                                             const std::string& name) {
+  for (const design::InteriorPoint& point : panel.points)
+    if (point.name == (half.empty() ? name : half + '.' + name)) return point.point;
+  return std::nullopt;
+}
+
 Value panel_member(Program& program, const Expr& expr, int index, std::string half, const std::string& name,
                    Scope& scope) {
   const PanelInfo& info = program.panels[static_cast<std::size_t>(index)];
@@ -47,7 +54,8 @@ Value panel_member(Program& program, const Expr& expr, int index, std::string ha
   if (half.empty() && info.folded && (name == "left" || name == "right"))
     return Value{HalfValue{index, name}};
   // `both` puts its half into every operand that has halves.
-  if (half.empty() && info.folded && !scope.half.empty() && find_edge(info, scope.half, name) != nullptr) {
+  if (half.empty() && info.folded && !scope.half.empty() &&
+      (find_edge(info, scope.half, name) != nullptr || interior_point(info.panel, scope.half, name))) {
     half = scope.half;
     for (const Scope* at = &scope; at != nullptr; at = at->parent) at->half_used = true;
   }
@@ -62,10 +70,20 @@ Value panel_member(Program& program, const Expr& expr, int index, std::string ha
   };
   for (const design::EdgeDart& dart : info.panel.darts)
     if (named(dart.name)) return Value{DartValue{index, dart.name}};
+  for (const design::InsideDart& dart : info.panel.inside_darts)
+    if (named(dart.name)) return Value{DartValue{index, dart.name}};
   for (const design::Notch& notch : info.panel.notches)
     if (named(notch.name)) return Value{NotchValue{index, notch.name}};
+  if (const auto point = interior_point(info.panel, half, name))
+    return Value{PointValue{{point->x(), point->y(), 0}, 2, kLength, index}};
   if (half.empty() && name == "resolution") return number_value(info.panel.resolution, kLength);
+  if (half.empty() && info.folded && interior_point(info.panel, "left", name))
+    fail(program,
+         Message("G0311", "`" + info.panel.name + '.' + name + "` is two points, one on each half", expr.span)
+             .help("write `" + info.panel.name + ".left." + name + "` or `" + info.panel.name + ".right." + name + "`"));
   std::vector<std::string> names = edge_names(info);
+  for (const design::InteriorPoint& point : info.panel.points)
+    if (point.name.starts_with(half) || !info.folded) names.push_back(point.name);
   if (half.empty() && info.folded) names.insert(names.end(), {"left", "right"});
   if (half.empty()) names.emplace_back("resolution");
   fail_member(program, expr, what, name, names);
@@ -93,6 +111,15 @@ Value dart_member(Program& program, const Expr& expr, const DartValue& value, co
     if (name == "width") return number_value(dart.width, kLength);
     if (name == "depth" && !dart.apex) return number_value(dart.depth, kLength);
     if (name == "at") return number_value(dart.at, kLength);
+  }
+  for (const design::InsideDart& dart :
+       program.panels[static_cast<std::size_t>(value.panel)].panel.inside_darts) {
+    if (dart.name != value.name) continue;
+    const double length = (dart.to - dart.from).norm();
+    if (name == "width") return number_value(dart.width, kLength);
+    if (name == "length") return number_value(length, kLength);
+    if (name == "at") return number_value(dart.at * length, kLength);
+    fail_member(program, expr, "dart `" + value.name + "`", name, {"width", "length", "at"});
   }
   fail_member(program, expr, "dart `" + value.name + "`", name, {"width", "depth", "at"});
 }

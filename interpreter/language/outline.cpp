@@ -17,10 +17,12 @@ constexpr double kFarthest = 100;   // m
 
 class EdgeDrawer {
  public:
-  EdgeDrawer(Program& program, const RecipeItem& item, const Point2& from, const Point2& first)
-      : program_(program),
+  EdgeDrawer(Drawing& drawing, const RecipeItem& item, const Point2& from, const Point2& first)
+      : drawing_(drawing),
+        program_(drawing.program),
         overrides_(item.overrides),
-        clauses_(program, *item.statement, *item.scope, &overrides_),
+        clauses_(program_, *item.statement, drawing_scope(program_, *item.scope, drawing.index, item), &overrides_),
+        kind_(item.statement->keyword.text == "line" ? "line" : "edge"),
         name_(item.name),
         span_(item.statement->span),
         name_span_(item.statement->name ? item.statement->name->span : item.statement->span),
@@ -28,26 +30,39 @@ class EdgeDrawer {
         from_(from),
         first_(first) {}
 
+  /// The next edge of a loop.
   design::Edge draw() {
     to_ = end_point();
     if ((to_ - from_).norm() == 0 && closes_)
       fail(program_,
-           Message("G0403", "edge `" + name_ + "` has no length: the outline is already closed", name_span_)
+           Message("G0403", kind_ + " `" + name_ + "` has no length: the outline is already closed", name_span_)
                .help("leave `close " + name_ + "` out"));
     if (!(to_.cwiseAbs().maxCoeff() <= kFarthest))
-      fail(program_, Message("G0309", "edge `" + name_ + "` ends more than 100 m away", name_span_));
+      fail(program_, Message("G0309", kind_ + " `" + name_ + "` ends more than 100 m away", name_span_));
     design::Edge edge;
     edge.name = name_;
     edge.curve = Curve(from_, to_, shape());
-    edge.free = clauses_.flag("free");
+    edge.free = clauses_.has("free") && clauses_.flag("free");
+    const auto allowance = clauses_.has("allowance") ? clauses_.quantity("allowance") : std::nullopt;
+    edge.allowance = allowance.value_or(0);
     clauses_.finish();
+    if (allowance) drawing_.own_allowance.insert(name_);
     if (!(edge.curve.length() >= kShortest))
       fail(program_, Message("G0403",
-                             "edge `" + name_ + "` is " + format_mm(edge.curve.length()) +
-                                 " long; an edge needs 0.1 mm at least",
+                             kind_ + " `" + name_ + "` is " + format_mm(edge.curve.length()) +
+                                 " long; it needs 0.1 mm at least",
                              name_span_));
     edge.origin = program_.origin(span_);
     return edge;
+  }
+
+  /// A line inside a panel, which says itself where it starts.
+  design::Edge draw_line() {
+    const BoundClause& from = clauses_.need("from");
+    from_ = point(clauses_.value(from), *from.scope, "`from`", false);
+    if (!(from_.cwiseAbs().maxCoeff() <= kFarthest))
+      fail(program_, Message("G0309", kind_ + " `" + name_ + "` starts more than 100 m away", name_span_));
+    return draw();
   }
 
  private:
@@ -72,7 +87,7 @@ class EdgeDrawer {
     if (ways != 1)
       fail(program_,
            Message(ways == 0 ? "G0312" : "G0415",
-                   "edge `" + name_ + "` " + (ways == 0 ? "has no end" : "has more than one end"), name_span_)
+                   kind_ + " `" + name_ + "` " + (ways == 0 ? "has no end" : "has more than one end"), name_span_)
                .help("write `to POINT`, `by (DX, DY)` or `heading DIRECTION length LENGTH`"));
     if (to != nullptr) return point(clauses_.value(*to), *to->scope, "`to`", false);
     if (by != nullptr) {
@@ -96,7 +111,7 @@ class EdgeDrawer {
     if (given.empty()) return geometry::Line{};
     if (given.size() > 1)
       fail(program_,
-           Message("G0415", "edge `" + name_ + "` has two curves: `" + given[0] + "` and `" + given[1] + "`",
+           Message("G0415", kind_ + " `" + name_ + "` has two curves: `" + given[0] + "` and `" + given[1] + "`",
                    name_span_)
                .help("one edge is one curve; split it or leave one out"));
     if (given[0] == "bulge") return geometry::Arc{checked_bulge(*clauses_.quantity("bulge"))};
@@ -125,7 +140,7 @@ class EdgeDrawer {
            Message("G0312", "`" + clause.clause->word.text + "` needs a point", clause.clause->span));
     for (const Point2& p : points)
       if (!(p.cwiseAbs().maxCoeff() <= kFarthest))
-        fail(program_, Message("G0309", "a point of edge `" + name_ + "` lies more than 100 m away",
+        fail(program_, Message("G0309", "a point of " + kind_ + " `" + name_ + "` lies more than 100 m away",
                                clause.clause->span));
     if (clause.clause->word.text == "through") {
       Point2 last = from_;
@@ -133,7 +148,7 @@ class EdgeDrawer {
         const Point2 next = k < points.size() ? points[k] : to_;
         if ((next - last).norm() < kSnap)
           fail(program_,
-               Message("G0403", "two points of edge `" + name_ + "` fall together", clause.clause->span));
+               Message("G0403", "two points of " + kind_ + " `" + name_ + "` fall together", clause.clause->span));
         last = next;
       }
     }
@@ -219,86 +234,102 @@ class EdgeDrawer {
     return far > 0 ? Point2(length / far * (at - from)) : Point2(0, 0);
   }
 
+  Drawing& drawing_;
   Program& program_;
   std::vector<Override> overrides_;
   Clauses clauses_;
-  std::string name_;
+  std::string kind_, name_;
   Span span_, name_span_;
   bool closes_ = false, relative_ = false;
   Point2 from_, first_, to_;
 };
 
-std::vector<design::Edge> circle(Program& program, const Recipe& recipe, Clauses& clauses,
-                                 std::vector<Span>& spans) {
-  const RecipeItem& item = recipe.outline;
+void draw_circle(Drawing& drawing, const Loop& loop, Clauses& clauses, std::vector<design::Edge>& edges,
+                 std::vector<Span>& spans) {
+  Program& program = drawing.program;
+  const RecipeItem& item = *loop.head;
+  const std::string keyword = item.statement->keyword.text;
   const Expr& call = item.statement->operands[0];
   const bool named = call.kind == ExprKind::call && call.children[0].kind == ExprKind::name &&
                      call.children[0].text == "circle" && call.children.size() == 3;
   if (!named || item.statement->operands.size() != 1)
-    fail(program,
-         Message("G0313", "an outline starts `from POINT` or is `circle(CENTER, RADIUS)`", call.span));
+    fail(program, Message("G0313", (keyword == "hole" ? "a hole" : "an outline") +
+                                       std::string(" starts `from POINT` or is `circle(CENTER, RADIUS)`"),
+                          call.span));
+  Scope& scope = drawing_scope(program, *item.scope, drawing.index, item);
   const Expr *center = &call.children[1], *radius = &call.children[2];
   if (call.labels.size() > 1 && call.labels[0].text == "radius") std::swap(center, radius);
-  const PointValue c = eval_point(program, *center, *item.scope, 2, kLength, "`center`");
-  const double r = eval_quantity(program, *radius, *item.scope, kLength, "`radius`").value;
-  if (!(r >= 5e-3 && r <= kFarthest))
-    fail(program,
-         Message("G0309", "`radius` is " + format_quantity(r, kLength) + "; it must lie in 5 mm .. 100 m",
-                 radius->span));
-  std::string name = "rim";
+  const PointValue c = eval_point(program, *center, scope, 2, kLength, "`center`");
+  const double r = eval_quantity(program, *radius, scope, kLength, "`radius`").value;
+  const double least = keyword == "hole" ? 1e-3 : 5e-3;
+  if (!(r >= least && r <= kFarthest))
+    fail(program, Message("G0309",
+                          "`radius` is " + format_quantity(r, kLength) + "; it must lie in " +
+                              format_mm(least) + " .. 100 m",
+                          radius->span));
+  std::string name = item.name.empty() ? "rim" : item.name;
   if (const BoundClause* as = clauses.find("as")) {
     const Expr& expr = clauses.value(*as);
     if (expr.kind != ExprKind::name) fail(program, Message("G0306", "`as` takes a name", expr.span));
     name = name_of(program, expr, *as->scope);
   }
-  if (!recipe.fold.empty())
-    fail(program, Message("G0404", "a circle has no straight edge to fold on", recipe.fold_span)
+  if (keyword == "outline" && loop.folded)
+    fail(program, Message("G0404", "a circle has no straight edge to fold on", loop.fold_span)
                       .help("draw half of it: `edge rim to ... arc radius R`, `close fold_line`"));
   const bool free = clauses.flag("free");
   const Point2 right(c.at[0] + r, c.at[1]), left(c.at[0] - r, c.at[1]);
-  std::vector<design::Edge> edges(2);
   // Counter-clockwise: the arcs bulge to the right of the way walked.
-  edges[0] = {name + ".1", program.origin(item.statement->span), Curve(right, left, geometry::Arc{-r}), free};
-  edges[1] = {name + ".2", program.origin(item.statement->span), Curve(left, right, geometry::Arc{-r}), free};
-  spans.assign(2, item.statement->span);
-  return edges;
+  edges.push_back({name + ".1", program.origin(item.statement->span), Curve(right, left, geometry::Arc{-r}), free});
+  edges.push_back({name + ".2", program.origin(item.statement->span), Curve(left, right, geometry::Arc{-r}), free});
+  const Span span = item.statement->name ? item.statement->name->span : item.statement->span;
+  spans.insert(spans.end(), 2, span);
 }
 
 }  // namespace
 
-std::vector<design::Edge> draw_outline(Program& program, const Recipe& recipe, std::vector<Span>& spans) {
-  const RecipeItem& item = recipe.outline;
+void draw_loop(Drawing& drawing, const Loop& loop, std::vector<design::Edge>& edges, std::vector<Span>& spans) {
+  Program& program = drawing.program;
+  const RecipeItem& item = *loop.head;
   const Statement& statement = *item.statement;
-  Clauses clauses(program, statement, *item.scope);
+  std::vector<Override> overrides = item.overrides;
+  Clauses clauses(program, statement, drawing_scope(program, *item.scope, drawing.index, item), &overrides);
   if (!statement.operands.empty()) {
-    std::vector<design::Edge> edges = circle(program, recipe, clauses, spans);
+    draw_circle(drawing, loop, clauses, edges, spans);
     clauses.finish();
-    return edges;
+    return;
   }
+  const std::string what = statement.keyword.text == "hole" ? "the hole `" + item.name + "`" : "the outline";
   const BoundClause& start = clauses.need("from");
   const PointValue p = eval_point(program, clauses.value(start), *start.scope, 2, kLength, "`from`");
+  const bool free = clauses.has("free") && clauses.flag("free");
   clauses.finish();
   const Point2 first(p.at[0], p.at[1]);
   Point2 at = first;
-  std::vector<design::Edge> edges;
-  for (std::size_t k = 0; k < recipe.edges.size(); ++k) {
-    const RecipeItem& edge = recipe.edges[k];
-    if (edge.statement->keyword.text == "close" && k + 1 < recipe.edges.size())
-      fail(program, Message("G0401", "edges stand after `close`", recipe.edges[k + 1].statement->span)
-                        .also(edge.statement->span, "the outline is closed here"));
-    edges.push_back(EdgeDrawer(program, edge, at, first).draw());
+  const std::size_t begin = edges.size();
+  for (std::size_t k = 0; k < loop.edges.size(); ++k) {
+    const RecipeItem& edge = *loop.edges[k];
+    if (edge.statement->keyword.text == "close" && k + 1 < loop.edges.size())
+      fail(program, Message("G0401", "edges stand after `close`", loop.edges[k + 1]->statement->span)
+                        .also(edge.statement->span, what + " is closed here"));
+    design::Edge drawn = EdgeDrawer(drawing, edge, at, first).draw();
+    drawn.free = drawn.free || free;
+    edges.push_back(std::move(drawn));
     spans.push_back(edge.statement->name ? edge.statement->name->span : edge.statement->operands.back().span);
     at = edges.back().curve.end();
   }
   const double gap = (at - first).norm();
-  if (edges.size() < 2 || gap > kSnap)
+  const bool no_loop = edges.size() - begin < 2;
+  if (no_loop || gap > kSnap)
     fail(program, Message("G0401",
-                          edges.size() < 2 ? "the outline has no loop"
-                                           : "the outline is open: it ends " + format_quantity(gap, kLength) +
-                                                 " from where it began",
-                          edges.size() < 2 ? statement.span : spans.back())
+                          no_loop ? what + " has no loop"
+                                  : what + " is open: it ends " + format_quantity(gap, kLength) +
+                                        " from where it began",
+                          no_loop ? (statement.name ? statement.name->span : statement.span) : spans.back())
                       .help("end it with `close NAME`"));
-  return edges;
+}
+
+design::Edge draw_line(Drawing& drawing, const RecipeItem& item) {
+  return EdgeDrawer(drawing, item, Point2(0, 0), Point2(0, 0)).draw_line();
 }
 
 }  // namespace garment::interpreter

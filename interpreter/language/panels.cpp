@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "interpreter/language/clauses.hpp"
-#include "interpreter/language/edges.hpp"
 #include "interpreter/language/fabrics.hpp"
 #include "interpreter/language/outline.hpp"
+#include "interpreter/language/panel_interior.hpp"
+#include "interpreter/language/panel_marks.hpp"
 #include "interpreter/language/parts.hpp"
-#include "interpreter/language/recipe.hpp"
 #include "runtime/base/portable_math.hpp"
 #include "runtime/design/unfold.hpp"
 
@@ -16,10 +15,6 @@ namespace garment::interpreter {
 namespace {
 
 using design::Point2;
-
-Span name_span(const RecipeItem& item) {
-  return item.statement->name ? item.statement->name->span : item.statement->span;
-}
 
 class PanelMaker {
  public:
@@ -37,11 +32,11 @@ class PanelMaker {
     if (recipe_->outline.statement == nullptr)
       fail(program_, Message("G0411", "panel `" + panel_.name + "` has no outline", head_span())
                          .help("write `outline from (0, 0) { edge ... close ... }`"));
-    panel_.edges = draw_outline(program_, *recipe_, spans_);
-    check_crossings(program_, panel_, spans_);
-    for (const RecipeItem& item : recipe_->notches) guarded([&] { add_notch(item); });
-    for (const RecipeItem& item : recipe_->darts) guarded([&] { add_dart(item); });
-    if (failed_) throw Stop{};
+    Drawing drawing{program_, declaration_.index, info_, panel_, *recipe_};
+    draw_outline(drawing);
+    bool good = draw_interior(drawing) && check_interior(drawing);
+    good = add_marks(drawing) && good;
+    if (!good) throw Stop{};
     if (recipe_->mirrored) mirror();
     if (!recipe_->fold.empty()) open_fold();
     finish();
@@ -49,13 +44,15 @@ class PanelMaker {
   }
 
  private:
-  template <class F>
-  void guarded(const F& run) {
-    try {
-      run();
-    } catch (const Stop&) {
-      failed_ = true;
-    }
+  void draw_outline(Drawing& drawing) {
+    Loop loop;
+    loop.head = &recipe_->outline;
+    for (const RecipeItem& edge : recipe_->edges) loop.edges.push_back(&edge);
+    loop.folded = !recipe_->fold.empty();
+    loop.fold_span = recipe_->fold_span;
+    draw_loop(drawing, loop, panel_.edges, spans_);
+    check_crossings(program_, "`" + panel_.name + "`", panel_.edges, spans_);
+    for (std::size_t k = 0; k < panel_.edges.size(); ++k) info_.spans[panel_.edges[k].name] = spans_[k];
   }
 
   Span head_span() const {
@@ -103,141 +100,20 @@ class PanelMaker {
     }
   }
 
-  /// The drawn edge that a notch or dart stands on.
-  const design::Edge& edge_of(const RecipeItem& item, Clauses& clauses) {
-    const BoundClause& on = clauses.need("on");
-    const Expr& expr = clauses.value(on);
-    if (expr.kind != ExprKind::name)
-      fail(program_, Message("G0306", "`on` takes the name of an edge of this panel", expr.span));
-    std::string name = name_of(program_, expr, *on.scope);
-    if (const auto renamed = item.renamed.find(name); renamed != item.renamed.end()) name = renamed->second;
-    std::vector<std::string> names;
-    for (const design::Edge& edge : panel_.edges) {
-      if (edge.name == name) return edge;
-      names.push_back(edge.name);
-    }
-    fail(program_, Message("G0301", "panel `" + panel_.name + "` has no edge `" + name + "`", expr.span)
-                       .help(did_you_mean(name, names)));
-  }
-
-  double position(const BoundClause& at, const design::Edge& edge, const std::string& what) {
-    const double length = edge.curve.length();
-    auto mark = [&](std::string_view name) -> std::optional<double> {
-      if (name == "start") return 0.0;
-      if (name == "end") return length;
-      for (const design::Notch& notch : panel_.notches)
-        if (notch.name == name && notch.edge == edge.name) return notch.at;
-      return std::nullopt;
-    };
-    return eval_position(program_, at.clause->values, *at.scope, length, mark, at.clause->span, what);
-  }
-
-  void add_notch(const RecipeItem& item) {
-    std::vector<Override> overrides = item.overrides;
-    Clauses clauses(program_, *item.statement, *item.scope, &overrides);
-    const design::Edge& edge = edge_of(item, clauses);
-    const BoundClause& at = clauses.need("at");
-    const double s = position(at, edge, "a notch");
-    clauses.finish();
-    const double length = edge.curve.length();
-    if (!(s >= -1e-6 && s <= length + 1e-6))
-      fail(program_, Message("G0414",
-                             "notch `" + item.name + "` is at " + format_quantity(s, kLength) + " of edge `" +
-                                 edge.name + "`; the edge is " + format_quantity(length, kLength) + " long",
-                             at.clause->span));
-    panel_.notches.push_back(
-        {item.name, program_.origin(item.statement->span), edge.name, std::clamp(s, 0.0, length)});
-    info_.spans[item.name] = name_span(item);
-  }
-
-  void add_dart(const RecipeItem& item) {
-    std::vector<Override> overrides = item.overrides;
-    Clauses clauses(program_, *item.statement, *item.scope, &overrides);
-    if (clauses.has("inside"))
-      fail(program_,
-           Message("G0315", "`inside` of `dart` is not supported yet", clauses.find("inside")->clause->span));
-    const design::Edge& edge = edge_of(item, clauses);
-    const double length = edge.curve.length();
-    design::EdgeDart dart;
-    dart.name = item.name;
-    dart.origin = program_.origin(item.statement->span);
-    dart.edge = edge.name;
-    const BoundClause* at = clauses.find("at");
-    dart.at = at != nullptr ? position(*at, edge, "a dart") : length / 2;
-    const auto width = clauses.quantity("width");
-    if (!width) clauses.need("width");
-    dart.width = *width;
-    const auto depth = clauses.quantity("depth");
-    const BoundClause* to = clauses.find("to");
-    if ((to != nullptr) == depth.has_value())
-      fail(program_,
-           Message(depth ? "G0415" : "G0312",
-                   "dart `" + item.name + "` needs " + (depth ? "one tip: `depth` or `to`" : "a tip"),
-                   name_span(item))
-               .help("write `depth 9 cm` or `to POINT`"));
-    if (depth) dart.depth = *depth;
-    if (to != nullptr) {
-      const PointValue p = eval_point(program_, clauses.value(*to), *to->scope, 2, kLength, "`to`");
-      dart.apex = Point2(p.at[0], p.at[1]);
-    }
-    clauses.finish();
-    check_mouth(item, dart, edge);
-    check_depth(item, dart, edge);
-    panel_.darts.push_back(dart);
-    info_.spans[item.name] = name_span(item);
-  }
-
-  void check_mouth(const RecipeItem& item, const design::EdgeDart& dart, const design::Edge& edge) {
-    const double length = edge.curve.length(), from = dart.at - dart.width / 2, to = dart.at + dart.width / 2;
-    if (from < -1e-9 || to > length + 1e-9)
-      fail(program_, Message("G0408",
-                             "the mouth of dart `" + item.name + "` is at " + format_quantity(from, kLength) +
-                                 " .. " + format_quantity(to, kLength) + "; edge `" + edge.name + "` is " +
-                                 format_quantity(length, kLength) + " long",
-                             name_span(item))
-                         .help("move it along the edge or make it narrower"));
-    for (const design::EdgeDart& other : panel_.darts) {
-      if (other.edge != dart.edge || std::fabs(other.at - dart.at) >= (other.width + dart.width) / 2)
-        continue;
-      fail(program_,
-           Message("G0417",
-                   "darts `" + other.name + "` and `" + item.name + "` overlap on edge `" + edge.name + "`",
-                   name_span(item))
-               .also(info_.spans[other.name], "at " + format_quantity(other.at, kLength)));
-    }
-  }
-
   double signed_area() const {
     double area = 0;
     for (const design::Edge& edge : panel_.edges) area += edge.curve.area_term();
     return area;
   }
 
-  void check_depth(const RecipeItem& item, const design::EdgeDart& dart, const design::Edge& edge) {
-    const Point2 middle = edge.curve.point_at(dart.at), t = edge.curve.tangent_at(dart.at);
-    Point2 way(-t.y(), t.x());
-    if (signed_area() < 0) way = -way;
-    double depth = dart.depth;
-    if (dart.apex) {
-      depth = (*dart.apex - middle).norm();
-      if (depth < 5e-3)
-        fail(program_, Message("G0407", "dart `" + item.name + "` has no depth", name_span(item)));
-      way = (*dart.apex - middle) / depth;
-    }
-    const double room = depth_inside(panel_, middle, way, 1e-4);
-    if (depth < room && (!dart.apex || contains(panel_, *dart.apex, 0))) return;
-    fail(program_,
-         Message("G0407",
-                 "dart `" + item.name + "` is " + format_quantity(depth, kLength) + " deep; the panel is " +
-                     format_quantity(std::min(room, 100.0), kLength) + " deep there",
-                 name_span(item))
-             .help("make it shallower, or place it elsewhere"));
-  }
-
   void mirror() {
-    for (design::Edge& edge : panel_.edges) edge.curve = edge.curve.mirrored_x(0);
+    auto image = [](Point2& p) { p.x() = -p.x(); };
+    for (auto* edges : {&panel_.edges, &panel_.hole_edges, &panel_.lines})
+      for (design::Edge& edge : *edges) edge.curve = edge.curve.mirrored_x(0);
+    for (design::InteriorPoint& point : panel_.points) image(point.point);
     for (design::EdgeDart& dart : panel_.darts)
-      if (dart.apex) dart.apex = Point2(-dart.apex->x(), dart.apex->y());
+      if (dart.apex) image(*dart.apex);
+    for (design::InsideDart& dart : panel_.inside_darts) image(dart.from), image(dart.to);
     panel_.grain_angle = -panel_.grain_angle;
   }
 
@@ -255,6 +131,7 @@ class PanelMaker {
                .help(did_you_mean(recipe_->fold, names)));
     for (const design::Notch& notch : panel_.notches) refuse_on_fold(notch.edge, notch.name);
     for (const design::EdgeDart& dart : panel_.darts) refuse_on_fold(dart.edge, dart.name);
+    for (const design::Pleat& pleat : panel_.pleats) refuse_on_fold(pleat.edge, pleat.name);
     const double fold_x = panel_.edges[fold].curve.start().x();
     double reach = 0;
     for (const design::Edge& edge : panel_.edges)
@@ -279,7 +156,7 @@ class PanelMaker {
     if (edge != recipe_->fold) return;
     fail(program_, Message("G0414", "`" + name + "` stands on the fold, which is no edge of the opened panel",
                            info_.spans[name])
-                       .help("notches and darts stand on the other edges"));
+                       .help("notches, darts and pleats stand on the other edges"));
   }
 
   design::EdgePart part(std::size_t edge, bool with_curve) const {
@@ -317,6 +194,7 @@ class PanelMaker {
         info_.edges.push_back({name, "", {part(0, true), part(1, true)}, spans_[0]});
       }
     }
+    name_interior(info_, declaration_.index);
     Point2 low(1e9, 1e9), high(-1e9, -1e9);
     for (const design::Edge& edge : panel_.edges)
       for (const Point2& p : edge.curve.polyline(1e-3)) low = low.cwiseMin(p), high = high.cwiseMax(p);
@@ -340,7 +218,6 @@ class PanelMaker {
   const Recipe* recipe_ = nullptr;
   std::vector<Span> spans_, drawn_spans_;
   std::vector<std::string> drawn_names_;
-  bool failed_ = false;
 };
 
 /// The word after the last dot of `form.back`, as written.
@@ -362,7 +239,11 @@ int reserve_panel(Program& program, const Declaration& declaration) {
 }
 
 Value evaluate_panel(Program& program, Declaration& declaration) {
+  // The right one of a pair is its left one's image: what is wrong with both is said once.
+  if (declaration.pair_left != nullptr) force(program, *declaration.pair_left, declaration.statement->keyword.span);
+  const std::size_t told = program.diagnostics.size();
   PanelMaker(program, declaration, program.panels[static_cast<std::size_t>(declaration.index)]).make();
+  if (declaration.pair_left != nullptr) program.diagnostics.resize(told);
   return Value{PanelValue{declaration.index}};
 }
 

@@ -163,7 +163,7 @@ std::vector<std::string> words_of(Program& program, const Expr& expr, Scope& sco
   return words;
 }
 
-Declaration* first_of(Scope& scope, std::vector<std::string>& words) {
+Declaration* first_of(Scope& scope, std::vector<std::string>& words, Declaration*& twin) {
   if (find_local(scope, words[0]) != nullptr) return nullptr;
   Declaration* found = find_declaration(scope, words[0]);
   std::size_t used = 1;
@@ -175,20 +175,28 @@ Declaration* first_of(Scope& scope, std::vector<std::string>& words) {
     found = find_declaration(scope, words[0] + '.' + scope.half);
     used = 1;
   }
+  if (found == nullptr && scope.half.empty()) {
+    found = find_declaration(scope, words[0] + ".left");
+    twin = find_declaration(scope, words[0] + ".right");
+    if (twin == nullptr) found = nullptr;
+    used = 1;
+  }
   if (found != nullptr) words.erase(words.begin(), words.begin() + static_cast<std::ptrdiff_t>(used));
   return found;
 }
 
-DeclaredPath follow(Program& program, std::vector<std::string> words, Scope& scope, int depth) {
+DeclaredPath follow(Program& program, std::vector<std::string> words, Scope& scope, int depth, bool through) {
   if (words.empty() || depth > kMaxPartDepth) return {};
-  DeclaredPath path{first_of(scope, words), {}};
+  DeclaredPath path;
+  path.declaration = first_of(scope, words, path.twin);
   while (path.declaration != nullptr) {
     Declaration& at = *path.declaration;
-    if (is_argument(at) && !words.empty() && at.overrides.empty()) {
+    if (is_argument(at) && (through || !words.empty()) && at.overrides.empty()) {
       const DeclaredPath meant = follow(
-          program, words_of(program, at.statement->clauses[0].values[0], *at.scope), *at.scope, depth + 1);
+          program, words_of(program, at.statement->clauses[0].values[0], *at.scope), *at.scope, depth + 1, through);
       if (meant.declaration == nullptr) break;
       path.declaration = meant.declaration;
+      path.twin = meant.twin;
       words.insert(words.begin(), meant.rest.begin(), meant.rest.end());
       continue;
     }
@@ -200,7 +208,13 @@ DeclaredPath follow(Program& program, std::vector<std::string> words, Scope& sco
       found = inner.declared.find(words[0] + '.' + words[1]);
       used = 2;
     }
-    if (found == inner.declared.end()) break;
+    if (found == inner.declared.end()) {
+      found = inner.declared.find(words[0] + ".left");
+      const auto right = inner.declared.find(words[0] + ".right");
+      if (found == inner.declared.end() || right == inner.declared.end()) break;
+      path.twin = right->second;
+      used = 1;
+    }
     path.declaration = found->second;
     words.erase(words.begin(), words.begin() + static_cast<std::ptrdiff_t>(used));
   }
@@ -274,8 +288,8 @@ void expand_part(Program& program, const Item& item) {
 
 bool is_argument(const Declaration& declaration) { return declaration.evaluate == evaluate_argument; }
 
-DeclaredPath find_path(Program& program, const Expr& expr, Scope& scope) {
-  return follow(program, words_of(program, expr, scope), scope, 0);
+DeclaredPath find_path(Program& program, const Expr& expr, Scope& scope, bool through) {
+  return follow(program, words_of(program, expr, scope), scope, 0, through);
 }
 
 Value part_member(Program& program, const Expr& expr, const ThingValue& thing, const std::string& name) {

@@ -29,12 +29,15 @@ bool is_argument(const Declaration& declaration);
 
 /// `left_sleeve.upper.waist_dart.depth` by its words alone, nothing evaluated: the declaration that the first
 /// words name, through parts and through arguments that are names themselves, and the words that are left.
-/// Null where the first word names nothing declared, or `expr` is no chain of names.
+/// Null where the first word names nothing declared, or `expr` is no chain of names. What is there left and right (a
+/// pair, or by `both`) and is called without a half is the left one, and `twin` the right one. An argument of a part
+/// that stands alone is itself, or what it names where `through` is true.
 struct DeclaredPath {
   Declaration* declaration = nullptr;
   std::vector<std::string> rest;
+  Declaration* twin = nullptr;
 };
-DeclaredPath find_path(Program& program, const Expr& expr, Scope& scope);
+DeclaredPath find_path(Program& program, const Expr& expr, Scope& scope, bool through = false);
 
 /// `part.name`: a port, or anything else declared in the part's block.
 Value part_member(Program& program, const Expr& expr, const ThingValue& part, const std::string& name);

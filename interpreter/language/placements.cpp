@@ -28,9 +28,21 @@ Matrix3d rotation(const Vector3d& r) {
 
 BodyPlaceValue eval_body_place(Program& program, const Expr& expr, Scope& scope, const std::string& what) {
   const Value value = eval(program, expr, scope);
-  if (const auto* place = value.as<BodyPlaceValue>()) return *place;
+  if (const auto* place = value.as<BodyPlaceValue>()) {
+    if (scope.half.empty() || (place->path != "arm" && place->path != "leg")) return *place;
+    for (const Scope* at = &scope; at != nullptr; at = at->parent) at->half_used = true;
+    return {place->body, place->path + '.' + scope.half};
+  }
   fail(program, Message("G0306", kind_of(value) + " where " + what, expr.span)
                     .help("as in `form.waist`, `form.front` or `form.arm.left`"));
+}
+
+std::string outline_name(Program& program, const PanelInfo& info, const design::EdgePart& part, Span span) {
+  if (part.on != design::EdgePart::On::outline)
+    fail(program, Message("G0610", "`with` takes an edge of the outline; `" + design::edge_of(info.panel, part).name +
+                                       "` lies inside the panel",
+                          span));
+  return info.panel.edges[static_cast<std::size_t>(part.edge)].name;
 }
 
 /// Name of a design edge for `with EDGE`: a name of the panel, or `front.waist`.
@@ -43,12 +55,12 @@ std::string eval_with_edge(Program& program, const Expr& expr, Scope& scope, int
     if (edge == nullptr)
       fail(program, Message("G0301", "panel `" + info.panel.name + "` has no edge `" + name + "`", expr.span)
                         .help(did_you_mean(name, edge_names(info))));
-    return info.panel.edges[static_cast<std::size_t>(edge->parts.front().edge)].name;
+    return outline_name(program, info, edge->parts.front(), expr.span);
   }
   const EdgeValue edge = eval_edges(program, expr, scope, "`with`");
   if (edge.spans.size() != 1 || edge.spans[0].panel != panel)
     fail(program, Message("G0610", "`with` takes an edge of the panel that is placed", expr.span));
-  return info.panel.edges[static_cast<std::size_t>(edge.spans[0].parts.front().edge)].name;
+  return outline_name(program, info, edge.spans[0].parts.front(), expr.span);
 }
 
 class Placer {

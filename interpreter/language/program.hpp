@@ -73,6 +73,7 @@ struct Declaration {
   std::vector<Override> overrides;
   /// Gives the value in place of the construct's record: arguments of a part.
   Value (*evaluate)(Program&, Declaration&) = nullptr;
+  Declaration* pair_left = nullptr;  ///< of the right one of a `pair panel`: the one it mirrors
 };
 
 /// Names visible at a place. Statement scopes live in Program::scopes; a call's scope lives on the stack.
@@ -82,6 +83,8 @@ struct Scope {
   std::string half;  ///< "left" or "right" inside `both`
   mutable bool half_used = false;
   const Part* part = nullptr;  ///< the part whose block this is in
+  int drawn = -1;  ///< a panel being drawn: what is drawn of it so far is known by its plain names
+  const std::map<std::string, std::string>* renamed = nullptr;  ///< of the drawn panel, by `rename`
   std::map<std::string, Value, std::less<>> values;
   std::map<std::string, Declaration*, std::less<>> declared;
 };
@@ -124,8 +127,9 @@ struct PanelInfo {
   double area = 0;                ///< of the outline, m^2
   bool counter_clockwise = true;  ///< sense of Panel::edges
   std::vector<NamedEdge> edges;
-  std::map<std::string, Span> spans;  ///< of darts and notches
+  std::map<std::string, Span> spans;  ///< of all that is named in the panel, by its drawn name
   bool on_back = false;               ///< placed on a `.back`: left is the smaller-x half
+  std::vector<Item> modifiers;        ///< `slash`, `move`, `scale` that act on it, in order
 };
 
 struct SeamInfo {

@@ -17,7 +17,7 @@ bool is_value(const std::string& word) {
 
 template <class F>
 void for_each_item(Recipe& recipe, const F& run) {
-  for (auto* items : {&recipe.edges, &recipe.notches, &recipe.darts})
+  for (std::vector<RecipeItem>* items : recipe.lists())
     for (RecipeItem& item : *items) run(item);
 }
 
@@ -37,11 +37,14 @@ std::vector<std::string> item_names(Recipe& recipe) {
 
 class RecipeMaker {
  public:
-  RecipeMaker(Program& program, Declaration& declaration) : program_(program), declaration_(declaration) {}
+  RecipeMaker(Program& program, Declaration& declaration)
+      : program_(program),
+        declaration_(declaration),
+        scope_(declaration.pair_left != nullptr ? *declaration.pair_left->scope : *declaration.scope) {}
 
   Recipe make() {
     const Statement& statement = *declaration_.statement;
-    Clauses clauses(program_, statement, *declaration_.scope, &declaration_.overrides);
+    Clauses clauses(program_, statement, scope_, &declaration_.overrides);
     const BoundClause* like = clauses.find("like");
     const bool mirrored = clauses.flag("mirrored");
     if (mirrored && like == nullptr)
@@ -57,6 +60,8 @@ class RecipeMaker {
     inherited_ = like != nullptr;
     if (statement.body) take_body(*statement.body);
     for (Override& change : declaration_.overrides) assign(change);
+    // The right one of a pair is the left one's image.
+    if (declaration_.pair_left != nullptr) recipe_.mirrored = !recipe_.mirrored;
     return std::move(recipe_);
   }
 
@@ -78,7 +83,7 @@ class RecipeMaker {
 
   void take_body(const grammar::Block& body) {
     std::vector<std::pair<const Statement*, Scope*>> statements;
-    expand_block(program_, body, *declaration_.scope, [&](const Statement& statement, Scope& scope) {
+    expand_block(program_, body, scope_, [&](const Statement& statement, Scope& scope) {
       statements.emplace_back(&statement, &scope);
     });
     // Changes of what is inherited come first: the block's own statements speak of the new names.
@@ -113,11 +118,26 @@ class RecipeMaker {
     if (keyword == "outline") return take_outline(statement, scope);
     if (keyword == "notch") return add(recipe_.notches, statement, scope);
     if (keyword == "dart") return add(recipe_.darts, statement, scope);
-    if (keyword == "place")
-      return program_.panel_places.push_back({&statement, &scope, &declaration_}), void();
+    if (keyword == "pleat" || keyword == "tuck") return add(recipe_.pleats, statement, scope);
+    if (keyword == "line" || keyword == "point" || keyword == "slit")
+      return add(recipe_.interior, statement, scope);
+    if (keyword == "hole") return take_hole(statement, scope);
+    if (keyword == "allowance")
+      return recipe_.allowances.push_back({&statement, &scope, "", {}, {}, ""}), void();
+    if (keyword == "place") return take_place(statement, scope);
     if (is_value(keyword)) return take_value(statement, scope);
     if (keyword == "=") return take_assignment(statement, scope);
     fail(program_, Message("G0322", "`" + keyword + "` cannot stand in a panel", statement.keyword.span));
+  }
+
+  void take_place(const Statement& statement, Scope& scope) {
+    Scope* where = &scope;
+    if (declaration_.pair_left != nullptr) {  // its own side of the body
+      where = &program_.new_scope(&scope);
+      where->half = declaration_.scope->half;
+      where->half_used = true;
+    }
+    program_.panel_places.push_back({&statement, where, &declaration_});
   }
 
   void take_outline(const Statement& statement, Scope& scope) {
@@ -125,16 +145,29 @@ class RecipeMaker {
       fail(program_, Message("G0314", "a panel has one outline", statement.keyword.span)
                          .also(recipe_.outline.statement->keyword.span, "first here"));
     own_outline_ = true;
-    recipe_.outline = {&statement, &scope, "", {}, {}};
+    recipe_.outline = {&statement, &scope, "", {}, {}, ""};
     recipe_.edges.clear();
+    take_loop(statement, scope, recipe_.edges, "");
+  }
+
+  void take_loop(const Statement& statement, Scope& scope, std::vector<RecipeItem>& edges,
+                 const std::string& owner) {
     if (!statement.body) return;
     expand_block(program_, *statement.body, scope, [&](const Statement& edge, Scope& inner) {
       if (edge.keyword.text != "edge" && edge.keyword.text != "close")
-        fail(program_,
-             Message("G0322", "`" + edge.keyword.text + "` cannot stand in an outline", edge.keyword.span)
-                 .help("an outline has `edge NAME to POINT` and, last, `close NAME`"));
-      add(recipe_.edges, edge, inner);
+        fail(program_, Message("G0322",
+                               "`" + edge.keyword.text + "` cannot stand in " +
+                                   (owner.empty() ? "an outline" : "a hole"),
+                               edge.keyword.span)
+                           .help("it has `edge NAME to POINT` and, last, `close NAME`"));
+      add(edges, edge, inner);
+      edges.back().owner = owner;
     });
+  }
+
+  void take_hole(const Statement& statement, Scope& scope) {
+    add(recipe_.interior, statement, scope);
+    take_loop(statement, scope, recipe_.hole_edges, recipe_.interior.back().name);
   }
 
   void add(std::vector<RecipeItem>& items, const Statement& statement, Scope& scope) {
@@ -152,7 +185,7 @@ class RecipeMaker {
       if (other->statement->name) message.also(other->statement->name->span, "first here");
       fail(program_, message);
     }
-    items.push_back({&statement, &scope, name, {}, {}});
+    items.push_back({&statement, &scope, name, {}, {}, ""});
   }
 
   void take_value(const Statement& statement, Scope& scope) {
@@ -226,8 +259,10 @@ class RecipeMaker {
       for (auto& [text, name] : other.renamed)
         if (name == from) name = to, known = true;
       if (!known) other.renamed[from] = to;
+      if (other.owner == from) other.owner = to;
     };
     for_each_item(recipe_, follow);
+    for (RecipeItem& allowance : recipe_.allowances) follow(allowance);
     if (recipe_.fold == from) recipe_.fold = to;
     clauses.finish();
   }
@@ -236,8 +271,8 @@ class RecipeMaker {
     for (const Expr& operand : statement.operands) {
       const std::string name = operand.kind == ExprKind::name ? name_of(program_, operand, scope) : "";
       inherited_item(name, operand.span);
-      for (auto* items : {&recipe_.edges, &recipe_.notches, &recipe_.darts})
-        std::erase_if(*items, [&](const RecipeItem& item) { return item.name == name; });
+      for (std::vector<RecipeItem>* items : recipe_.lists())
+        std::erase_if(*items, [&](const RecipeItem& item) { return item.name == name || item.owner == name; });
     }
   }
 
@@ -248,24 +283,27 @@ class RecipeMaker {
       fail(program_, Message("G0313", "write `replace edge NAME to POINT ...`", statement.span));
     const std::string name = name_of(program_, operands[1], scope);
     inherited_item(name, operands[1].span);
-    for (RecipeItem& item : recipe_.edges) {
-      if (item.name != name) continue;
-      item.statement = &statement;
-      item.scope = &scope;
-      item.overrides.clear();
-      return;
-    }
+    for (std::vector<RecipeItem>* edges : {&recipe_.edges, &recipe_.hole_edges})
+      for (RecipeItem& item : *edges) {
+        if (item.name != name) continue;
+        item.statement = &statement;
+        item.scope = &scope;
+        item.overrides.clear();
+        item.renamed.clear();
+        return;
+      }
     fail(program_, Message("G0311", "`" + name + "` is no edge", operands[1].span));
   }
 
   RecipeItem& inherited_item(const std::string& name, Span span) {
     if (RecipeItem* item = find_item(recipe_, name)) return *item;
-    fail(program_, Message("G0416", "the panel has no edge, dart or notch `" + name + "`", span)
+    fail(program_, Message("G0416", "the panel has nothing named `" + name + "`", span)
                        .help(did_you_mean(name, item_names(recipe_))));
   }
 
   Program& program_;
   Declaration& declaration_;
+  Scope& scope_;  ///< of the statements
   Recipe recipe_;
   std::vector<Override> own_;
   bool inherited_ = false, own_outline_ = false, failed_ = false;

@@ -1,5 +1,6 @@
 // Checks that need all seams: chains meet, nothing is left unsewn by mistake.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -24,7 +25,7 @@ class Corners {
   std::size_t of(const EdgePart& part, bool at_end) {
     const design::Panel& panel = program_.panels[static_cast<std::size_t>(part.panel)].panel;
     const Point2 p =
-        panel.edges[static_cast<std::size_t>(part.edge)].curve.point_at(at_end ? part.to : part.from);
+        design::edge_of(panel, part).curve.point_at(at_end ? part.to : part.from);
     for (std::size_t k = 0; k < points_.size(); ++k)
       if (points_[k].first == part.panel && (points_[k].second - p).norm() < kSame) return root(k);
     points_.emplace_back(part.panel, p);
@@ -36,6 +37,20 @@ class Corners {
     a = root(a);
     b = root(b);
     if (a != b) parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+  /// The outer ends of a drawn dart's legs come together.
+  void join_legs(int panel) {
+    const design::Panel& p = program_.panels[static_cast<std::size_t>(panel)].panel;
+    for (const design::LegDart& dart : p.leg_darts)
+      for (std::size_t k = 0; k < p.edges.size(); ++k) {
+        const std::size_t next = (k + 1) % p.edges.size();
+        const std::string &one = p.edges[k].name, &two = p.edges[next].name;
+        if (!(one == dart.leg_a && two == dart.leg_b) && !(one == dart.leg_b && two == dart.leg_a)) continue;
+        const EdgePart in{panel, static_cast<int>(k), 0, p.edges[k].curve.length()};
+        const EdgePart out{panel, static_cast<int>(next), 0, p.edges[next].curve.length()};
+        join(of(in, false), of(out, true));
+      }
   }
 
   std::size_t root(std::size_t k) const {
@@ -57,7 +72,7 @@ void check_links(Program& program, Corners& corners, const SeamInfo& info, std::
                         corners.of(parts[k], false) == corners.of(parts[k + 1], false);
     auto name = [&](const EdgePart& part) {
       const design::Panel& panel = program.panels[static_cast<std::size_t>(part.panel)].panel;
-      return panel.name + '.' + panel.edges[static_cast<std::size_t>(part.edge)].name;
+      return panel.name + '.' + design::edge_of(panel, part).name;
     };
     // Sides after the first run against the way they are written.
     const EdgePart& first = side > 0 ? parts[k + 1] : parts[k];
@@ -80,17 +95,22 @@ struct Interval {
   int seam;
 };
 
-using Cover = std::map<std::pair<int, int>, std::vector<Interval>>;
+/// By panel, kind of edge and index there.
+using Cover = std::map<std::array<int, 3>, std::vector<Interval>>;
+
+std::array<int, 3> key_of(const EdgePart& part) { return {part.panel, static_cast<int>(part.on), part.edge}; }
 
 void cover(Cover& all, const EdgePart& part, int seam) {
-  all[{part.panel, part.edge}].push_back({std::min(part.from, part.to), std::max(part.from, part.to), seam});
+  all[key_of(part)].push_back({std::min(part.from, part.to), std::max(part.from, part.to), seam});
 }
 
 /// Length of an edge that nothing covers; the mouths of darts count as covered.
-double uncovered(const PanelInfo& info, std::size_t edge, std::vector<Interval> covers) {
-  const design::Edge& e = info.panel.edges[edge];
+double uncovered(const PanelInfo& info, const EdgePart& part, std::vector<Interval> covers) {
+  const design::Edge& e = design::edge_of(info.panel, part);
   for (const design::EdgeDart& dart : info.panel.darts)
     if (dart.edge == e.name) covers.push_back({dart.at - dart.width / 2, dart.at + dart.width / 2, -1});
+  for (const design::LegDart& dart : info.panel.leg_darts)
+    if (dart.leg_a == e.name || dart.leg_b == e.name) covers.push_back({0, e.curve.length(), -1});
   std::sort(covers.begin(), covers.end(),
             [](const Interval& a, const Interval& b) { return a.from < b.from; });
   double open = 0, reached = 0;
@@ -110,11 +130,12 @@ void warn_sewn_twice(Program& program, const Cover& all) {
         if (std::min(a.to, b.to) - std::max(a.from, b.from) < kUnsewn) continue;
         const SeamInfo &one = program.seams[static_cast<std::size_t>(a.seam)],
                        &two = program.seams[static_cast<std::size_t>(b.seam)];
-        const design::Panel& panel = program.panels[static_cast<std::size_t>(key.first)].panel;
+        const design::Panel& panel = program.panels[static_cast<std::size_t>(key[0])].panel;
+        const design::Edge& edge = design::edge_of(panel, {key[0], key[2], 0, 0, static_cast<EdgePart::On>(key[1])});
         PartGuard guard(program, two.part);
         report(program,
                Message("G0508",
-                       "edge `" + panel.name + '.' + panel.edges[static_cast<std::size_t>(key.second)].name +
+                       "edge `" + panel.name + '.' + edge.name +
                            "` is sewn by seam `" + one.seam.name + "` and by seam `" + two.seam.name + "`",
                        two.spans[0])
                    .also(one.spans[0], "first here")
@@ -127,6 +148,7 @@ void warn_sewn_twice(Program& program, const Cover& all) {
 
 void check_chains(Program& program) {
   Corners corners(program);
+  for (std::size_t p = 0; p < program.panels.size(); ++p) corners.join_legs(static_cast<int>(p));
   for (const SeamInfo& info : program.seams) {
     if (!info.ready) continue;
     for (const design::SeamSide& side : info.seam.sides) {
@@ -160,10 +182,9 @@ void check_unsewn(Program& program) {
     auto open_length = [&](const NamedEdge& edge) {
       double open = 0;
       for (const EdgePart& part : edge.parts) {
-        const std::size_t index = static_cast<std::size_t>(part.edge);
-        if (info.panel.edges[index].free) continue;
-        const auto covers = all.find({static_cast<int>(p), part.edge});
-        open += uncovered(info, index, covers == all.end() ? std::vector<Interval>{} : covers->second);
+        if (part.on == EdgePart::On::line || design::edge_of(info.panel, part).free) continue;
+        const auto covers = all.find(key_of(part));
+        open += uncovered(info, part, covers == all.end() ? std::vector<Interval>{} : covers->second);
       }
       return open;
     };

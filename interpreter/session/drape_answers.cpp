@@ -38,7 +38,7 @@ std::optional<double> DrapeAnswers::shear(const std::string& panel) const {
 std::optional<double> DrapeAnswers::length(const std::vector<design::EdgePart>& parts) const {
   double sum = 0;
   for (const design::EdgePart& p : parts) {
-    const geometry::Curve& curve = garment_.panels[p.panel].edges[p.edge].curve;
+    const geometry::Curve& curve = design::edge_of(garment_.panels[p.panel], p).curve;
     auto length = results::draped_length(model_, state_, p.panel, curve, std::min(p.from, p.to), std::max(p.from, p.to));
     if (!length) return std::nullopt;
     sum += *length;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "runtime/base/origin.hpp"
+#include "runtime/design/folds.hpp"
 #include "runtime/geometry/curve.hpp"
 
 namespace garment::design {
@@ -16,9 +17,10 @@ struct Edge {
   OriginId origin;
   geometry::Curve curve;   ///< metres, panel face up, x right, y up
   bool free = false;       ///< marked `free`: needs no seam
+  double allowance = 0;    ///< width of cloth outside the stitch line, m
 };
 
-/// A closed loop cut out of a panel; its edges are Panel::hole_edges[first .. first + count), in drawn order.
+/// A closed loop cut out of a panel; its edges are Panel::hole_edges[first .. first + count), in drawn order, either sense.
 struct Hole {
   std::string name;
   OriginId origin;
@@ -39,7 +41,7 @@ struct Slit {
   int line = -1;
 };
 
-/// A mark on an edge, to be matched when sewing. `at` is an arc length in metres from the edge's drawn start.
+/// A mark on an edge, interior line or hole's edge, to be matched when sewing. `at` is an arc length in metres from the edge's drawn start.
 struct Notch {
   std::string name;
   OriginId origin;
@@ -90,6 +92,9 @@ struct Panel {
   std::vector<Slit> slits;
   std::vector<Notch> notches;
   std::vector<EdgeDart> darts;
+  std::vector<InsideDart> inside_darts;
+  std::vector<LegDart> leg_darts;
+  std::vector<Pleat> pleats;
   double grain_angle = 0;          ///< of the warp, from +y, counter-clockwise, rad
   double resolution = 0.01;        ///< grid spacing h, m
   std::optional<double> fold_x;    ///< x of the symmetry axis of an unfolded panel

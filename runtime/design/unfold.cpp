@@ -4,6 +4,7 @@
 
 #include "runtime/base/number.hpp"
 #include "runtime/base/portable_math.hpp"
+#include "runtime/design/unfold_interior.hpp"
 
 namespace garment::design {
 namespace {
@@ -60,9 +61,20 @@ void add_marks(const Panel& half, const std::string& prefix, bool mirror, double
     if (!mirror) return at;
     for (const Edge& e : half.edges)
       if (e.name == edge) return e.curve.length() - at;
+    for (const Edge& e : half.hole_edges)
+      if (e.name == edge && in_joined_hole(half, edge, fold_x)) return e.curve.length() - at;
     return at;
   };
+  auto once = [&](const std::string& edge) {
+    for (const Edge& line : half.lines)
+      if (line.name == edge) return on_fold(line.curve, fold_x);
+    return false;
+  };
   for (Notch notch : half.notches) {
+    if (once(notch.edge)) {
+      if (!mirror) whole.notches.push_back(notch);
+      continue;
+    }
     notch.at = along(notch.edge, notch.at);
     notch.name = prefix + notch.name;
     notch.edge = prefix + notch.edge;
@@ -74,6 +86,22 @@ void add_marks(const Panel& half, const std::string& prefix, bool mirror, double
     dart.name = prefix + dart.name;
     dart.edge = prefix + dart.edge;
     whole.darts.push_back(dart);
+  }
+  for (LegDart dart : half.leg_darts) {
+    dart.name = prefix + dart.name;
+    dart.leg_a = prefix + dart.leg_a;
+    dart.leg_b = prefix + dart.leg_b;
+    whole.leg_darts.push_back(dart);
+  }
+  for (Pleat pleat : half.pleats) {
+    if (mirror) {  // the image of the edge is walked the other way
+      pleat.at = along(pleat.edge, pleat.at);
+      pleat.spacing = -pleat.spacing;
+      pleat.toward = -pleat.toward;
+    }
+    pleat.name = prefix + pleat.name;
+    pleat.edge = prefix + pleat.edge;
+    whole.pleats.push_back(pleat);
   }
 }
 
@@ -106,8 +134,16 @@ UnfoldResult unfold(const Panel& half, std::size_t fold_edge, bool drawn_is_left
 
   Panel whole = half;
   whole.edges.clear();
+  whole.hole_edges.clear();
+  whole.holes.clear();
+  whole.lines.clear();
+  whole.points.clear();
+  whole.slits.clear();
   whole.notches.clear();
   whole.darts.clear();
+  whole.inside_darts.clear();
+  whole.leg_darts.clear();
+  whole.pleats.clear();
   whole.fold_x = fold_x;
   const std::string drawn = drawn_is_left ? "left." : "right.", mirrored = drawn_is_left ? "right." : "left.";
   for (std::size_t k = 1; k < n; ++k) {
@@ -123,6 +159,7 @@ UnfoldResult unfold(const Panel& half, std::size_t fold_edge, bool drawn_is_left
   }
   add_marks(half, drawn, false, fold_x, whole);
   add_marks(half, mirrored, true, fold_x, whole);
+  unfold_interior(half, drawn, mirrored, fold_x, whole);
   result.panel = std::move(whole);
   return result;
 }

@@ -22,8 +22,12 @@ std::string seam_letter(std::size_t k) {
 std::string millimetres(double m) { return format_number(std::round(m * 1e4) / 10, 6) + " mm"; }
 
 bool known(const design::Garment& g, const design::EdgePart& part) {
-  return part.panel >= 0 && part.panel < static_cast<int>(g.panels.size()) && part.edge >= 0 &&
-         part.edge < static_cast<int>(g.panels[part.panel].edges.size());
+  if (part.panel < 0 || part.panel >= static_cast<int>(g.panels.size()) || part.edge < 0) return false;
+  const design::Panel& panel = g.panels[part.panel];
+  const auto& edges = part.on == design::EdgePart::On::hole   ? panel.hole_edges
+                      : part.on == design::EdgePart::On::line ? panel.lines
+                                                              : panel.edges;
+  return part.edge < static_cast<int>(edges.size());
 }
 
 std::vector<std::vector<SeamTag>> tags_by_panel(const design::Garment& g) {
@@ -31,7 +35,8 @@ std::vector<std::vector<SeamTag>> tags_by_panel(const design::Garment& g) {
   for (std::size_t s = 0; s < g.seams.size(); ++s)
     for (const design::SeamSide& side : g.seams[s].sides)
       for (const design::EdgePart& part : side.parts)
-        if (known(g, part)) out[part.panel].push_back({seam_letter(s), part.edge, part.from, part.to});
+        if (known(g, part) && part.on == design::EdgePart::On::outline)
+          out[part.panel].push_back({seam_letter(s), part.edge, part.from, part.to});
   return out;
 }
 
@@ -61,7 +66,7 @@ std::string seam_line(const design::Garment& g, std::size_t s) {
     for (const design::EdgePart& part : side.parts) {
       if (!known(g, part)) continue;
       length += std::fabs(part.to - part.from);
-      const std::string name = g.panels[part.panel].name + "." + g.panels[part.panel].edges[part.edge].name;
+      const std::string name = g.panels[part.panel].name + "." + design::edge_of(g.panels[part.panel], part).name;
       names += (names.empty() ? "" : " + ") + name;
     }
     out += (first ? "" : "   to   ") + names + " " + millimetres(length);

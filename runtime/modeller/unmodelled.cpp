@@ -8,6 +8,8 @@ class Unmodelled {
   explicit Unmodelled(Severity severity) : severity_(severity) {}
 
   void say(const std::string& what, OriginId origin) {
+    for (const Finding& told : findings_)  // both halves of a panel on the fold come of one statement
+      if (told.labels[0].origin.value == origin.value && origin.value != 0) return;
     findings_.push_back({"G0460",
                          severity_,
                          what + " is declared, but cannot be modelled yet",
@@ -18,7 +20,14 @@ class Unmodelled {
   /// Says it once for each element of a list whose elements have a name and an origin.
   template <class List>
   void say_all(const std::string& kind, const List& list) {
-    for (const auto& thing : list) say(kind + " `" + thing.name + "`", thing.origin);
+    for (const auto& thing : list) say(kind + " `" + plain(thing.name) + "`", thing.origin);
+  }
+
+  /// The name without its half.
+  static std::string plain(const std::string& name) {
+    for (const char* half : {"left.", "right."})
+      if (name.starts_with(half)) return name.substr(std::string(half).size());
+    return name;
   }
 
   Findings take() { return std::move(findings_); }
@@ -32,6 +41,10 @@ void find_in_panels(const design::Garment& garment, Unmodelled& out) {
   for (const design::Panel& panel : garment.panels) {
     out.say_all("hole", panel.holes);
     out.say_all("slit", panel.slits);
+    out.say_all("dart", panel.inside_darts);
+    out.say_all("dart", panel.leg_darts);
+    for (const design::Pleat& pleat : panel.pleats)
+      out.say((pleat.kind == design::Pleat::Kind::tuck ? "tuck `" : "pleat `") + Unmodelled::plain(pleat.name) + "`", pleat.origin);
   }
 }
 
@@ -43,12 +56,20 @@ void find_in_seams(const design::Garment& garment, Unmodelled& out) {
           return out.say("a seam along a line or hole inside a panel", side.origin);
 }
 
+void find_in_attachments(const design::Garment& garment, Unmodelled& out) {
+  for (const design::Attachment& attachment : garment.attachments)
+    for (const design::EdgePart& part : attachment.parts)
+      if (part.on != design::EdgePart::On::outline)
+        return out.say("an attachment of a line or hole inside a panel", attachment.origin);
+}
+
 }  // namespace
 
 Findings find_unmodelled(const design::Garment& garment, Severity severity) {
   Unmodelled out(severity);
   find_in_panels(garment, out);
   find_in_seams(garment, out);
+  find_in_attachments(garment, out);
   return out.take();
 }
 
