@@ -113,18 +113,69 @@ class Unparser {
     const design::Panel& panel = garment_.panels[p];
     group();
     line(fmt::format("panel {} of {} {{", names_.panels[p], names_.fabrics[panel.fabric]));
-    if (!panel.edges.empty())
-      line(fmt::format("  outline from {} {{", text::point(panel.edges[0].curve.start())));
-    for (std::size_t e = 0; e < panel.edges.size(); ++e) {
-      const design::Edge& edge = panel.edges[e];
-      bool last = e + 1 == panel.edges.size();
-      std::string where = last ? std::string() : " to " + text::point(edge.curve.end());
-      line(fmt::format("    {} {}{}{}{}", last ? "close" : "edge", names_.edges[p][e], where,
-                       curve_clause(edge.curve), edge.free ? " free" : ""));
-    }
-    if (!panel.edges.empty()) line("  }");
+    write_loop("outline", panel.edges, names_.edges[p], 0, panel.edges.size());
+    write_inside(p);
     write_details(p);
     line("}");
+  }
+
+  void write_loop(const std::string& head, const std::vector<design::Edge>& edges, const std::vector<std::string>& names,
+                  std::size_t first, std::size_t count) {
+    if (count == 0) return;
+    line(fmt::format("  {} from {} {{", head, text::point(edges[first].curve.start())));
+    for (std::size_t e = first; e < first + count; ++e) {
+      const design::Edge& edge = edges[e];
+      bool last = e + 1 == first + count;
+      std::string where = last ? std::string() : " to " + text::point(edge.curve.end());
+      std::string allowance = edge.allowance > 0 ? " allowance " + text::length(edge.allowance) : "";
+      line(fmt::format("    {} {}{}{}{}{}", last ? "close" : "edge", names[e], where, curve_clause(edge.curve),
+                       allowance, edge.free ? " free" : ""));
+    }
+    line("  }");
+  }
+
+  void write_inside(std::size_t p) {
+    const design::Panel& panel = garment_.panels[p];
+    for (std::size_t i = 0; i < panel.holes.size(); ++i)
+      write_loop("hole " + names_.holes[p][i], panel.hole_edges, names_.hole_edges[p],
+                 static_cast<std::size_t>(panel.holes[i].first), static_cast<std::size_t>(panel.holes[i].count));
+    for (std::size_t i = 0; i < panel.lines.size(); ++i) {
+      const geometry::Curve& curve = panel.lines[i].curve;
+      line(fmt::format("  line {} from {} to {}{}", names_.lines[p][i], text::point(curve.start()),
+                       text::point(curve.end()), curve_clause(curve)));
+    }
+    for (std::size_t i = 0; i < panel.points.size(); ++i)
+      line(fmt::format("  point {} at {}", names_.points[p][i], text::point(panel.points[i].point)));
+    for (std::size_t i = 0; i < panel.slits.size(); ++i)
+      line(fmt::format("  slit {} along {}", names_.slits[p][i],
+                       names_.lines[p][static_cast<std::size_t>(panel.slits[i].line)]));
+  }
+
+  void write_folds(std::size_t p) {
+    using Kind = design::Pleat::Kind;
+    const design::Panel& panel = garment_.panels[p];
+    for (std::size_t i = 0; i < panel.inside_darts.size(); ++i) {
+      const design::InsideDart& dart = panel.inside_darts[i];
+      line(fmt::format("  dart {} inside from {} to {} width {} at {}%", names_.inside_darts[p][i],
+                       text::point(dart.from), text::point(dart.to), text::length(dart.width),
+                       text::number(100 * dart.at)));
+    }
+    for (std::size_t i = 0; i < panel.leg_darts.size(); ++i)
+      line(fmt::format("  dart {}: {} to {}", names_.leg_darts[p][i], edge_called(p, panel.leg_darts[i].leg_a),
+                       edge_called(p, panel.leg_darts[i].leg_b)));
+    for (std::size_t i = 0; i < panel.pleats.size(); ++i) {
+      const design::Pleat& pleat = panel.pleats[i];
+      const bool tuck = pleat.kind == Kind::tuck;
+      std::string words = fmt::format("  {} {} on {} at {}", tuck ? "tuck" : "pleat", names_.pleats[p][i],
+                                      edge_called(p, pleat.edge), text::length(pleat.at));
+      if (pleat.kind == Kind::box) words += " box";
+      if (pleat.kind == Kind::inverted) words += " inverted";
+      words += (tuck ? " width " : " underlay ") + text::length(pleat.underlay);
+      if (pleat.count > 1) words += fmt::format(" count {} every {}", pleat.count, text::length(pleat.spacing));
+      if (pleat.toward < 0 && (tuck || pleat.kind == Kind::knife)) words += " toward start";
+      if (pleat.length > 0) words += (tuck ? " length " : " stitched ") + text::length(pleat.length);
+      line(words + (pleat.ironed ? " ironed" : ""));
+    }
   }
 
   void write_details(std::size_t p) {
@@ -143,11 +194,16 @@ class Unparser {
       line(fmt::format("  dart {} on {} at {} width {} {}", names_.darts[p][i], edge_called(p, dart.edge),
                        text::length(dart.at), text::length(dart.width), tip));
     }
+    write_folds(p);
   }
 
   const std::string& edge_called(std::size_t p, const std::string& name) const {
     for (std::size_t e = 0; e < garment_.panels[p].edges.size(); ++e)
       if (garment_.panels[p].edges[e].name == name) return names_.edges[p][e];
+    for (std::size_t e = 0; e < garment_.panels[p].lines.size(); ++e)
+      if (garment_.panels[p].lines[e].name == name) return names_.lines[p][e];
+    for (std::size_t e = 0; e < garment_.panels[p].hole_edges.size(); ++e)
+      if (garment_.panels[p].hole_edges[e].name == name) return names_.hole_edges[p][e];
     return name;
   }
 

@@ -21,7 +21,15 @@ bool counter_clockwise(const design::Panel& panel) {
 
 /// True where the part walks its loop counter-clockwise.
 bool with_loop(const design::Garment& garment, const EdgePart& part) {
-  return (part.from < part.to) == counter_clockwise(garment.panels[part.panel]);
+  const design::Panel& panel = garment.panels[part.panel];
+  const bool drawn = part.from < part.to;
+  if (part.on == EdgePart::On::line) return drawn;
+  if (part.on == EdgePart::On::outline) return drawn == counter_clockwise(panel);
+  double area = 0;  // round a hole the cloth lies to the left of the clockwise way
+  for (const design::Hole& hole : panel.holes)
+    for (int k = hole.first; k < hole.first + hole.count; ++k)
+      if (part.edge >= hole.first && part.edge < hole.first + hole.count) area += panel.hole_edges[k].curve.area_term();
+  return drawn == (area < 0);
 }
 
 void turn_round(Parts& parts) {
@@ -50,9 +58,9 @@ std::string relation(double ratio) {
 }  // namespace
 
 std::string edge_part(const design::Garment& garment, const Names& names, const EdgePart& part) {
-  std::string name = fmt::format("{}.{}", names.panels[part.panel], names.edges[part.panel][part.edge]);
+  std::string name = fmt::format("{}.{}", names.panels[part.panel], edge_name(names, part));
   double from = std::min(part.from, part.to), to = std::max(part.from, part.to);
-  double whole = garment.panels[part.panel].edges[part.edge].curve.length();
+  double whole = design::edge_of(garment.panels[part.panel], part).curve.length();
   bool at_start = from <= kSliver, at_end = to >= whole - kSliver;
   if (at_start && at_end) return name;
   return fmt::format("{}[{} .. {}]", name, at_start ? "start" : length(from), at_end ? "end" : length(to));

@@ -87,6 +87,12 @@ std::string fresh_name(std::string_view name, std::string_view fallback, std::se
   return candidate;
 }
 
+const std::string& edge_name(const Names& names, const design::EdgePart& part) {
+  using On = design::EdgePart::On;
+  const auto& lists = part.on == On::hole ? names.hole_edges : part.on == On::line ? names.lines : names.edges;
+  return lists[static_cast<std::size_t>(part.panel)][static_cast<std::size_t>(part.edge)];
+}
+
 Names make_names(const design::Garment& garment, const std::string& also_body) {
   Names names;
   std::set<std::string> taken;
@@ -114,12 +120,20 @@ Names make_names(const design::Garment& garment, const std::string& also_body) {
     std::vector<std::string>& edges = names.edges.emplace_back();
     for (const design::Edge& edge : panel.edges)
       edges.push_back(fresh_name(edge.name, "edge", of_panel, is_kept_in_panel));
-    std::vector<std::string>& darts = names.darts.emplace_back();
-    for (const design::EdgeDart& dart : panel.darts)
-      darts.push_back(fresh_name(dart.name, "dart", of_panel, is_kept_in_panel));
-    std::vector<std::string>& notches = names.notches.emplace_back();
-    for (const design::Notch& notch : panel.notches)
-      notches.push_back(fresh_name(notch.name, "notch", of_panel, is_kept_in_panel));
+    auto name_all = [&](std::vector<std::vector<std::string>>& into, const auto& things, const char* fallback) {
+      std::vector<std::string>& list = into.emplace_back();
+      for (const auto& thing : things) list.push_back(fresh_name(thing.name, fallback, of_panel, is_kept_in_panel));
+    };
+    name_all(names.darts, panel.darts, "dart");
+    name_all(names.notches, panel.notches, "notch");
+    name_all(names.hole_edges, panel.hole_edges, "edge");
+    name_all(names.holes, panel.holes, "hole");
+    name_all(names.lines, panel.lines, "line");
+    name_all(names.points, panel.points, "point");
+    name_all(names.slits, panel.slits, "slit");
+    name_all(names.inside_darts, panel.inside_darts, "dart");
+    name_all(names.leg_darts, panel.leg_darts, "dart");
+    name_all(names.pleats, panel.pleats, "pleat");
   }
   for (const design::Seam& seam : garment.seams) names.seams.push_back(fresh_name(seam.name, "seam", taken));
   for (const design::Pin& pin : garment.pins) names.pins.push_back(fresh_name(pin.name, "pin", taken));

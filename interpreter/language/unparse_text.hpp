@@ -37,8 +37,11 @@ std::string fresh_name(std::string_view name, std::string_view fallback, std::se
 struct Names {
   std::vector<std::string> fabrics, bodies, panels, seams, pins;
   std::vector<std::vector<std::string>> edges, darts, notches;  ///< [panel][edge] and so on
+  std::vector<std::vector<std::string>> hole_edges, holes, lines, points, slits, inside_darts, leg_darts, pleats;
   std::vector<std::string> undeclared_bodies;                   ///< named by attachments or placements only
 };
+/// Name of the edge, line or hole's edge that a part belongs to, without its panel.
+const std::string& edge_name(const Names& names, const design::EdgePart& part);
 /// `also_body` is a body to be declared though nothing names it; empty: none.
 Names make_names(const design::Garment& garment, const std::string& also_body = {});
 

@@ -95,8 +95,7 @@ void add_marks(const Panel& half, const std::string& prefix, bool mirror, double
   }
   for (Pleat pleat : half.pleats) {
     if (mirror) {  // the image of the edge is walked the other way
-      pleat.at = along(pleat.edge, pleat.at);
-      pleat.spacing = -pleat.spacing;
+      pleat.at = along(pleat.edge, pleat.at) - (pleat.count - 1) * pleat.spacing;
       pleat.toward = -pleat.toward;
     }
     pleat.name = prefix + pleat.name;

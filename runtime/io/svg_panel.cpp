@@ -8,6 +8,7 @@
 
 #include "runtime/base/number.hpp"
 #include "runtime/base/portable_math.hpp"
+#include "runtime/io/cut_lines.hpp"
 
 namespace garment::io {
 namespace {
@@ -68,16 +69,6 @@ Chord roomiest(const std::vector<Point>& polygon) {
 
 }  // namespace
 
-/// Panel millimetres, y up, to paper, y down.
-struct SvgPanel::Placed {
-  Point shift;
-  Point operator()(const Point& p) const { return {shift[0] + p[0], shift[1] - p[1]}; }
-  std::vector<Point> operator()(std::vector<Point> points) const {
-    for (Point& p : points) p = (*this)(p);
-    return points;
-  }
-};
-
 SvgPanel::SvgPanel(const design::Panel& panel, std::vector<SeamTag> tags, std::vector<std::string> facts,
                    const std::array<double, 3>& color)
     : panel_(panel), tags_(std::move(tags)), facts_(std::move(facts)) {
@@ -95,6 +86,8 @@ SvgPanel::SvgPanel(const design::Panel& panel, std::vector<SeamTag> tags, std::v
   for (const Point& p : outline_) room_.grow(p);
   for (const design::Edge& e : panel.edges)
     for (const design::Point2& p : e.curve.polyline(kChord)) room_.grow(mm_of(p));
+  for (const CutLine& line : cut_lines(panel))
+    for (const design::Point2& p : line) room_.grow(mm_of(p));
   room_.low -= Point(kMargin, kMargin);
   room_.high += Point(kMargin, kMargin);
 }
@@ -145,6 +138,8 @@ void SvgPanel::draw(SvgPaper& paper, const Point& corner) const {
   const Placed on{Point(corner[0] - room_.low[0], corner[1] + room_.high[1])};
   paper.begin_group(panel_.name);
   draw_outline(paper, on);
+  draw_allowances(paper, on);
+  draw_interior(paper, on);
   draw_middle(paper, on);
   draw_edge_names(paper, on);
   draw_notches(paper, on);

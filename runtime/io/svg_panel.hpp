@@ -32,7 +32,15 @@ class SvgPanel {
   const std::vector<Point>& outline() const { return outline_; }
 
  private:
-  struct Placed;
+  /// Panel millimetres, y up, to paper, y down.
+  struct Placed {
+    Point shift;
+    Point operator()(const Point& p) const { return {shift[0] + p[0], shift[1] - p[1]}; }
+    std::vector<Point> operator()(std::vector<Point> points) const {
+      for (Point& p : points) p = (*this)(p);
+      return points;
+    }
+  };
   struct Dart {
     int edge;
     double from, to;         ///< mouth on the edge, m
@@ -48,6 +56,10 @@ class SvgPanel {
   void draw_edge_names(SvgPaper& paper, const Placed& on) const;
   void draw_tags(SvgPaper& paper, const Placed& on) const;
   void draw_middle(SvgPaper& paper, const Placed& on) const;
+  void draw_interior(SvgPaper& paper, const Placed& on) const;
+  void draw_allowances(SvgPaper& paper, const Placed& on) const;
+  void draw_lenses(SvgPaper& paper, const Placed& on) const;
+  void draw_pleats(SvgPaper& paper, const Placed& on) const;
   void draw_grain(SvgPaper& paper, const Placed& on, const Point& through) const;
 
   const design::Panel& panel_;
