@@ -49,6 +49,7 @@ Outcome run_script(const std::string& path, const std::string& text, Stage stage
     o.text = grammar::to_outline(parsed.script);
   } else {
     interpreter::InterpretOptions options;
+    options.warn_unused = true;
     options.stdlib_dir = stdlib_dir;
     options.script_dir = folder_of(path);
     interpreter::Interpretation result = interpreter::interpret(o.sources, id, host, options);

@@ -122,6 +122,7 @@ ExitCode load(Project& project, const ProjectOptions& options, Host& host, Termi
   }
   if (pattern) return load_pattern(project, options, *text.value, host, terminal);
   interpreter::InterpretOptions interpret_options;
+  interpret_options.warn_unused = true;
   interpret_options.stdlib_dir = options.stdlib_dir;
   interpret_options.library_dirs = options.library_dirs;
   interpret_options.script_dir = folder_of(options.file);

@@ -9,12 +9,14 @@
 #include "interpreter/language/declarations.hpp"
 #include "interpreter/language/fabrics.hpp"
 #include "interpreter/language/libraries.hpp"
+#include "interpreter/language/notch_order.hpp"
 #include "interpreter/language/panels.hpp"
 #include "interpreter/language/parameters.hpp"
 #include "interpreter/language/parts.hpp"
 #include "interpreter/language/placements.hpp"
 #include "interpreter/language/recipe.hpp"
 #include "interpreter/language/seams.hpp"
+#include "interpreter/language/unused_names.hpp"
 
 namespace garment::interpreter {
 namespace {
@@ -78,8 +80,10 @@ void run_all(Program& program) {
   check_both(program);
   check_components(program);
   check_chains(program);
+  check_notch_order(program);
   if (!program.has_error) check_unsewn(program);
   check_bodies(program);
+  if (!program.has_error && program.options.warn_unused) check_unused(program);
 }
 
 void sort_parameters(Program& program) {

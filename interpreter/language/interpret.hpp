@@ -28,6 +28,7 @@ struct InterpretOptions {
   /// Build all declared bodies. Otherwise mannequins are built only where a script asks what their measures do not
   /// tell, and Interpretation::bodies is empty for the others.
   bool build_bodies = true;
+  bool warn_unused = false;  ///< of names that a whole script never uses; at the prompt they may still be
   /// How bodies are built; empty: body::build_body.
   std::function<body::BodyResult(const design::Body&, Host&, const std::string&)> build_body;
 };

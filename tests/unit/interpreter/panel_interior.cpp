@@ -182,3 +182,31 @@ TEST_CASE("a pair is a panel and its image, and `both` speaks of each side") {
   CHECK(panels[0].resolution == Approx(5e-3));
   CHECK(panels[1].resolution == Approx(1e-2));
 }
+
+TEST_CASE("notches of one name come in one order, and meet") {
+  auto script = [](const std::string& one, const std::string& two) {
+    return "use fabrics\nfabric f = fabrics.poplin\npanel a of f {\n  outline from (0, 0) {\n    edge low to (20 cm, 0) "
+           "free\n    edge outer to (20 cm, 30 cm)\n    edge high to (0, 30 cm) free\n    close inner free\n  }\n  " +
+           one +
+           "\n}\npanel b of f {\n  outline from (0, 0) {\n    edge low to (20 cm, 0) free\n    edge outer to (20 cm, 30 cm) "
+           "free\n    edge high to (0, 30 cm) free\n    close inner\n  }\n  " +
+           two + "\n}\nseam middle: a.outer to b.inner\n";
+  };
+  const std::string ordered = "notch m on outer at 5 cm\n  notch n on outer at 20 cm";
+  accepts(Trial(script(ordered, "notch n on inner at 10 cm\n  notch m on inner at 25 cm")));
+  CHECK(Trial(script(ordered, "notch n on inner at 10 cm\n  notch m on inner at 25 cm")).text().find("G0438") ==
+        std::string::npos);
+  refuses(script(ordered, "notch n on inner at 25 cm\n  notch m on inner at 10 cm"), "G0432");
+  const Trial apart(script(ordered, "notch n on inner at 9 cm"));
+  accepts(apart);
+  CHECK(apart.text().find("G0438") != std::string::npos);
+}
+
+TEST_CASE("what a whole script never uses is told, where it is asked for") {
+  InterpretOptions options;
+  options.warn_unused = true;
+  const std::string script = "let a = 2 cm\nlet b = a\n";
+  CHECK(Trial(script, options).text().find("`b` is declared and never used") != std::string::npos);
+  CHECK(Trial(script, options).text().find("`a` is declared") == std::string::npos);
+  CHECK(Trial(script).text().find("G0439") == std::string::npos);
+}
