@@ -23,11 +23,6 @@ ConstructRecord later(std::string_view keyword, bool declares_name, std::string_
   return record;
 }
 
-ConstructRecord inside(ConstructRecord record) {
-  record.top = false;
-  return record;
-}
-
 const Words kActs = {"drape", "expect", "save", "record", "release"};
 
 }  // namespace

@@ -16,7 +16,7 @@ std::vector<ClauseRecord> join_clauses() {
 }
 
 const std::vector<std::string_view> kComponentBody = {
-    "let",       "fn",        "measure", "assert", "solve",  "fabric", "panel", "pair",
+    "let",       "fn",        "measure", "assert", "solve",  "fabric", "panel", "pair panel",
     "seam",      "hem",       "tack",    "zip",    "button", "layer",  "pad",   "region",
     "iron",      "starch",    "place",   "attach", "pin",    "clamp",  "force", "pressure",
     "constrain", "component", "part",    "port",   "join",   "slash",  "move",  "scale"};

@@ -83,7 +83,7 @@ TEST_CASE("allowances that meet in a narrow cut-out are refused") {
            "(0, 30 cm) free\n    close left_side free\n  }\n  allowance " +
            width + "\n}\n";
   };
-  refuses(script("15 mm"), "G0431", "1 cm would fit");
+  refuses(script("15 mm"), "G0431", "1 cm on each would fit");
   accepts(Trial(script("9 mm")));
 }
 
@@ -161,22 +161,22 @@ TEST_CASE("allowances: all edges, one edge, and the edge's own word") {
 
 TEST_CASE("a pair is a panel and its image, and `both` speaks of each side") {
   const Trial trial(
-      "use fabrics\nfabric f = fabrics.poplin\npair panel s of f {\n  outline from (0, 0) {\n    edge hem to (20 cm, 0)\n    "
+      "use fabrics\nfabric f = fabrics.poplin\npair panel sl of f {\n  outline from (0, 0) {\n    edge hem to (20 cm, 0)\n    "
       "edge under to (20 cm, 30 cm)\n    edge cap to (0, 30 cm) bulge -2 cm free\n    close over free\n  }\n  grain 80 "
       "deg\n}\npair panel cuff of f {\n  outline from (0, 0) {\n    edge low to (20 cm, 0) free\n    edge right_end to (20 "
-      "cm, 6 cm)\n    edge high to (0, 6 cm)\n    close left_end free\n  }\n}\nboth seam wrist: s.hem to cuff.high\nseam "
-      "both_unders: s.left.under to s.right.under\ns.hem.free = 1\n");
+      "cm, 6 cm)\n    edge high to (0, 6 cm)\n    close left_end free\n  }\n}\nboth seam wrist: sl.hem to cuff.high\nseam "
+      "both_unders: sl.left.under to sl.right.under\nsl.hem.free = 1\n");
   CHECK_FALSE(trial.result.ok());  // `free` stands alone
   const Trial good(
-      "use fabrics\nfabric f = fabrics.poplin\npair panel s of f {\n  outline from (0, 0) {\n    edge hem to (20 cm, 0)\n    "
+      "use fabrics\nfabric f = fabrics.poplin\npair panel sl of f {\n  outline from (0, 0) {\n    edge hem to (20 cm, 0)\n    "
       "edge under to (20 cm, 30 cm)\n    edge cap to (0, 30 cm) bulge -2 cm free\n    close over free\n  }\n  grain 80 "
-      "deg\n}\nseam both_unders: s.left.under to s.right.under\ns.left.resolution = 5 mm\n");
+      "deg\n}\nseam both_unders: sl.left.under to sl.right.under\nsl.left.resolution = 5 mm\n");
   INFO(good.text());
   REQUIRE(good.result.ok());
   const auto& panels = good.result.garment.panels;
   REQUIRE(panels.size() == 2);
-  CHECK(panels[0].name == "s.left");
-  CHECK(panels[1].name == "s.right");
+  CHECK(panels[0].name == "sl.left");
+  CHECK(panels[1].name == "sl.right");
   CHECK(panels[0].grain_angle == Approx(-panels[1].grain_angle));
   CHECK(panels[1].edges[1].curve.end().x() == Approx(-0.2));
   CHECK(panels[0].resolution == Approx(5e-3));
