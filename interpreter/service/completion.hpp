@@ -11,9 +11,9 @@ namespace garment::service {
 
 /// One proposal. `text` takes the place of bytes [replace_begin, replace_end) of the source.
 struct Completion {
-  std::string text;  ///< "seam", "front", "cm"
-  std::string kind;  ///< "keyword", "clause", "function", "unit", "word", "field", "argument", "member", or
-                     ///< the keyword of what is declared: "panel", "edge", "param" ...
+  std::string text;    ///< "seam", "front", "cm"
+  std::string kind;    ///< "keyword", "clause", "function", "unit", "word", "field", "argument", "member", or
+                       ///< the keyword of what is declared: "panel", "edge", "param" ...
   std::string detail;  ///< one line beside it: "LENGTH, 0 cm .. 50 cm", "24.6 cm"
   std::string doc;     ///< what it does; may be empty
   std::uint32_t replace_begin = 0, replace_end = 0;
