@@ -6,8 +6,10 @@
 
 #include "interpreter/cli/commands.hpp"
 #include "interpreter/cli/golden.hpp"
+#include "interpreter/cli/lsp.hpp"
 #include "interpreter/cli/reference_page.hpp"
 #include "interpreter/cli/run.hpp"
+#include "interpreter/service/textmate.hpp"
 #include "runtime/base/parallel.hpp"
 
 namespace {
@@ -25,6 +27,15 @@ constexpr const char* kExamples = R"(examples:
 constexpr const char* kFooter = R"(exit codes: 0 ok, 1 diagnostics, 2 usage, 3 input or output, 4 the simulation failed, 5 an expect failed,
 130 interrupted)";
 
+constexpr const char* kLspHelp = R"(An editor starts this command and speaks with it; a person does not. It gives diagnostics (those of
+`garment check`), hover, completion, signatures, definitions, uses, seam partners ("go to implementation", and the request
+garment/seamPartners), rename, quick fixes, formatting, outline, folding and semantic tokens.
+
+  VS Code   editors/vscode (see its README)
+  Neovim    vim.lsp.start{name="garment", cmd={"garment", "lsp"}, root_dir=vim.fn.getcwd()}
+  Helix     languages.toml: [language-server.garment] command = "garment", args = ["lsp"]
+  Emacs     (add-to-list 'eglot-server-programs '(garment-mode "garment" "lsp")))";
+
 struct Options {
   TerminalOptions terminal;
   int threads = 0;
@@ -35,6 +46,7 @@ struct Options {
   GoldenOptions golden;
   bool whole_check = false;
   std::string parse_file, code;
+  bool stdio = true, textmate = false;
 };
 
 void add_common(CLI::App* command, Options& o) {
@@ -100,7 +112,12 @@ int main(int argc, char** argv) {
   auto* explain_command = app.add_subcommand("explain", "the long text of a diagnostic code");
   explain_command->add_option("code", o.code, "for example G0312")->required();
   add_common(explain_command, o);
+  auto* lsp_command = app.add_subcommand("lsp", "serve an editor: Language Server Protocol 3.17 on standard input and output");
+  lsp_command->add_option("--library", o.project.stdlib_dir, "folder of the standard library");
+  lsp_command->add_flag("--stdio", o.stdio, "talk over standard input and output (always so; editors pass it)");
+  lsp_command->footer(kLspHelp);
   auto* reference_command = app.add_subcommand("reference", "print the reference page: constructs, functions, units, codes, commands");
+  reference_command->add_flag("--textmate", o.textmate, "print the TextMate grammar for editors instead");
 
   try {
     app.parse(argc, argv);
@@ -120,9 +137,10 @@ int main(int argc, char** argv) {
   if (*format_command) return format(o.format, host, terminal);
   if (*import_command) return import_pattern(o.import_options, host, terminal);
   if (*reference_command) {
-    terminal.result(reference_page(app));
+    terminal.result(o.textmate ? garment::service::textmate_grammar() : reference_page(app));
     return kOk;
   }
   if (*test_command) return run_goldens(o.golden, host, terminal);
+  if (*lsp_command) return serve_editor(o.project.stdlib_dir, host);
   return explain(o.code, terminal);
 }

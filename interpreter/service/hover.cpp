@@ -30,6 +30,20 @@ std::string code(const std::string& text) { return "```garment\n" + text + "\n``
 
 std::string plain_doc(const std::string& doc) { return doc.empty() ? "" : "\n\n" + doc; }
 
+/// Blanks and line ends as one blank, at most 160 bytes.
+std::string one_line(std::string_view text) {
+  std::string out;
+  for (const char c : text.substr(0, 400)) {
+    const bool blank = c == ' ' || c == '\n' || c == '\t' || c == '\r';
+    if (!blank)
+      out += c;
+    else if (!out.empty() && out.back() != ' ' && out.back() != '(')
+      out += ' ';
+  }
+  if (out.size() > 160) out = out.substr(0, out.find_last_of(' ', 160)) + " ...";
+  return out;
+}
+
 // ---- values
 
 Value edge_value(int panel, const PanelInfo& info, const NamedEdge& edge) {
@@ -40,14 +54,13 @@ Value edge_value(int panel, const PanelInfo& info, const NamedEdge& edge) {
   return Value{EdgeValue{{span}}};
 }
 
-/// All edges that are drawn at one place of the text: the halves of a fold, those of panels that are `like`
-/// it.
-std::vector<EdgeValue> edges_drawn_at(const Program& program, Span definition) {
+/// The edges of its panel that a thing means: the halves of a fold. Panels that are `like` it have edges of
+/// their own.
+std::vector<EdgeValue> edges_of(const Program& program, const Named& thing) {
   std::vector<EdgeValue> found;
   for (std::size_t k = 0; k < program.panels.size(); ++k)
     for (const NamedEdge& edge : program.panels[k].edges)
-      if (holds(edge.span, definition.begin) && edge.span.source == definition.source &&
-          edge.name == program.sources.text(definition))
+      if (program.panels[k].panel.name == thing.owner && edge.name == thing.name)
         found.push_back(*edge_value(static_cast<int>(k), program.panels[k], edge).as<EdgeValue>());
   return found;
 }
@@ -142,7 +155,8 @@ class Teller {
       for (Partner& partner : partners_of(program_, edge)) all.push_back(std::move(partner));
     };
     if (use_ != nullptr && use_->declares)
-      for (const EdgeValue& edge : edges_drawn_at(program_, use_->span)) take(edge);
+      for (const EdgeValue& edge : edges_of(program_, names_.things[static_cast<std::size_t>(use_->thing)]))
+        take(edge);
     if (!all.empty()) return all;
     if (const auto value = value_here())
       if (const auto* edge = value->as<EdgeValue>()) take(*edge);
@@ -212,6 +226,7 @@ class Teller {
     if (thing.keyword == "parameter") return std::string(sources_.text(thing.statement));
     if (thing.keyword == "variable") return "for " + thing.name + " in ...";
     std::string text(sources_.text(thing.statement));
+    if (thing.keyword == "fn") return one_line(text);
     if (const std::size_t line = text.find('\n'); line != std::string::npos) text.resize(line);
     if (text.size() > 160) text = text.substr(0, text.find_last_of(' ', 160)) + " ...";
     return text;
@@ -225,7 +240,7 @@ class Teller {
     if (value && !called) text += "\n" + describe_value(program_, *value);
     std::vector<EdgeValue> edges;
     if (value && value->as<EdgeValue>() != nullptr) edges.push_back(*value->as<EdgeValue>());
-    if (edges.empty() && !value) edges = edges_drawn_at(program_, thing.definition);
+    if (edges.empty() && !value) edges = edges_of(program_, thing);
     if (!value && !edges.empty()) text += "\n" + describe_value(program_, Value{edges.front()});
     std::vector<Partner> sewn = partners();
     text += sewn_to(sewn);
