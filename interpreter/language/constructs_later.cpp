@@ -29,19 +29,6 @@ const Words kActs = {"drape", "expect", "save", "record", "release"};
 
 std::vector<ConstructRecord> later_constructs() {
   return {
-      later("zip", true, "zip NAME: EDGE to EDGE open %", "a zip between two edges", {":", "to", "open"}),
-      later("hem", true, "hem NAME on EDGE turn LENGTH to back", "turns an edge", {"on", "turn", "to"}),
-      later("tack", true, "tack NAME: A to B along LINE | in REGION", "loose stitches",
-            {":", "to", "along", "in"}),
-      later("iron", true, "iron NAME along LINE fold ANGLE to face | back", "presses a line or a region",
-            {"along", "in", "fold", "to", "radius", "set", "shrink", "extend", "flat", "curl", "factor"}),
-      later("starch", false, "starch REGION factor FACTOR", "stiffens a region", {"factor"}),
-      later("region", true, "region NAME in PANEL, ...: SHAPE", "part of one or more panels", {"in", ":"}),
-      later("layer", true, "layer NAME of FABRIC on PANEL fused | basted", "a layer of another cloth",
-            {"of", "on", "in", "fused", "basted", "free", "grain", "side", "above"}),
-      later("pad", true, "pad NAME on PANEL", "a soft accessory with thickness", {"on", "at", "thickness"}),
-      later("button", true, "button NAME on PANEL at POINT through PANEL at POINT", "a button and its hole",
-            {"on", "at", "through", "mass", "diameter", "shank", "kind"}),
       later("solve", true, "solve NAME in RANGE so CONDITION", "finds a value", {"in", "so"}),
       later("slash", false, "slash PANEL along LINE spread LENGTH", "opens a panel along a line",
             {"along", "spread"}),

@@ -3,11 +3,10 @@
 #include <cmath>
 
 #include "interpreter/language/clauses.hpp"
+#include "interpreter/language/fabric_fields.hpp"
 
 namespace garment::interpreter {
 namespace {
-
-enum class Slot { W, T, G, HG, HG5, B, HB, twist, EM, LT, WT, RT, Fm, stretch, friction, damping };
 
 struct SlotInfo {
   Slot slot;
@@ -32,6 +31,12 @@ constexpr SlotInfo kSlots[] = {
     {Slot::stretch, kForcePerLength, 1, 1e7, false},
     {Slot::friction, kNumber, 0, 2, false},
     {Slot::damping, kTime, 0, 10, false},
+    {Slot::E5, kNumber, 1e-5, 5, true},
+    {Slot::E20, kNumber, 1e-5, 5, true},
+    {Slot::E100, kNumber, 1e-4, 5, true},
+    {Slot::EB5, kNumber, 1e-4, 5, true},
+    {Slot::bending_length, kLength, 1e-3, 0.2, false},
+    {Slot::T100, kLength, 1e-5, 0.05, false},
 };
 
 /// Directions: 0 warp, 1 weft, 2 both, 3 none.
@@ -77,6 +82,21 @@ constexpr FieldName kFields[] = {
     {"MIU", Slot::friction, 3},
     {"friction", Slot::friction, 3},
     {"damping", Slot::damping, 3},
+    {"E5_warp", Slot::E5, 0},
+    {"E5_weft", Slot::E5, 1},
+    {"E5", Slot::E5, 2},
+    {"E20_warp", Slot::E20, 0},
+    {"E20_weft", Slot::E20, 1},
+    {"E20", Slot::E20, 2},
+    {"E100_warp", Slot::E100, 0},
+    {"E100_weft", Slot::E100, 1},
+    {"E100", Slot::E100, 2},
+    {"EB5", Slot::EB5, 3},
+    {"c_warp", Slot::bending_length, 0},
+    {"c_weft", Slot::bending_length, 1},
+    {"c", Slot::bending_length, 2},
+    {"T2", Slot::T, 3},
+    {"T100", Slot::T100, 3},
 };
 
 const SlotInfo& info_of(Slot slot) { return kSlots[static_cast<std::size_t>(slot)]; }
@@ -122,16 +142,10 @@ double get(const design::Fabric& f, Slot slot, std::size_t d) {
       return f.friction;
     case Slot::damping:
       return f.damping;
+    default:  // FAST figures are read only
+      return 0;
   }
-  return 0;
 }
-
-/// Fields as a record gives them, per slot and direction (none: direction 0), before they are put together.
-struct Given {
-  std::optional<double> value[16][2];
-  Span span[16][2];
-  std::optional<double>& at(Slot slot, std::size_t d) { return value[static_cast<std::size_t>(slot)][d]; }
-};
 
 void apply_plain(design::Fabric& f, Given& given) {
   auto take = [&](Slot slot, double& member, double factor = 1) {
@@ -212,37 +226,71 @@ std::array<double, 3> eval_color(Program& program, const std::string& text, Span
   return color;
 }
 
-void read_field(Program& program, design::Fabric& fabric, Given& given, const std::string& name,
-                Span name_span, const Expr& expr, Scope& scope) {
-  if (name == "color") {
-    fabric.color = eval_color(program, eval_text(program, expr, scope, "`color`"), expr.span);
-    return;
+void apply_record(Program& program, design::Fabric& fabric, Given& given, const Expr& record, Scope& scope) {
+  for (std::size_t k = 0; k < record.children.size() && k < record.labels.size(); ++k) {
+    const Expr& expr = record.children[k];
+    take_field(program, fabric, given, record.labels[k].text, record.labels[k].span,
+               eval(program, expr, scope), expr.span);
   }
-  if (name == "kind" || name == "source") {
-    (name == "kind" ? fabric.kind : fabric.source) = eval_text(program, expr, scope, "`" + name + "`");
-    return;
+  apply_given(program, fabric, given);
+}
+
+/// `color`, `kind`, `source`, `pattern`, `repeat`; false for any other field.
+bool take_text_field(Program& program, design::Fabric& fabric, const std::string& name, const Value& value,
+                     Span span) {
+  if (name == "repeat") {
+    const double x = as_quantity(program, value, span, kLength, "`repeat`").value;
+    if (!(x >= 1e-3 && x <= 10))
+      fail(program,
+           Message("G0309", "`repeat` is " + format_quantity(x, kLength) + "; it must lie in 1 mm .. 1000 cm",
+                   span));
+    fabric.pattern_repeat = x;
+    return true;
   }
+  if (name != "color" && name != "kind" && name != "source" && name != "pattern") return false;
+  const auto* text = value.as<std::string>();
+  if (text == nullptr)
+    fail(program, Message("G0306", kind_of(value) + " where `" + name + "` takes text in quotes", span));
+  if (name == "color") fabric.color = eval_color(program, *text, span);
+  if (name == "kind") fabric.kind = *text;
+  if (name == "source") fabric.source = *text;
+  if (name == "pattern") {
+    check_pattern(program, *text, span);
+    fabric.pattern = *text;
+  }
+  return true;
+}
+
+bool is_fast(Slot slot) { return slot >= Slot::E5; }
+
+}  // namespace
+
+void take_field(Program& program, design::Fabric& fabric, Given& given, const std::string& name,
+                Span name_span, const Value& value, Span value_span) {
+  if (take_text_field(program, fabric, name, value, value_span)) return;
   const FieldName* field = find_field(name);
   if (field == nullptr) {
     std::string hint = did_you_mean(name, fabric_field_names());
     if (hint.empty())
-      hint = "fields are W T EM LT WT RT Fm G two_HG two_HG5 B two_HB, stretch, bend, shear, friction";
+      hint =
+          "fields are W T EM LT WT RT Fm G two_HG two_HG5 B two_HB, stretch, bend, shear, friction, and "
+          "FAST's E5 E20 "
+          "E100 EB5 c T2 T100";
     fail(program, Message("G0311", "a fabric has no `" + name + "`", name_span).help(hint));
   }
   const SlotInfo& info = info_of(field->slot);
-  const Value value = eval(program, expr, scope);
   const auto* q = value.as<Quantity>();
   // N/m per radian and N/m are the same number: a radian is a ratio.
   const bool shear_as_force = field->slot == Slot::G && q != nullptr && q->dimension == kForcePerLength;
   const double x = shear_as_force
                        ? q->value
-                       : as_quantity(program, value, expr.span, info.dimension, "`" + name + "`").value;
+                       : as_quantity(program, value, value_span, info.dimension, "`" + name + "`").value;
   if (!(x >= info.min && x <= info.max))
     fail(program, Message("G0309",
                           "`" + name + "` is " + format_quantity(x, info.dimension, info.percent) +
                               "; it must lie in " + format_quantity(info.min, info.dimension, info.percent) +
                               " .. " + format_quantity(info.max, info.dimension, info.percent),
-                          expr.span));
+                          value_span));
   for (std::size_t d = 0; d < 2; ++d) {
     if (field->direction == 3 ? d == 1 : field->direction != 2 && field->direction != static_cast<int>(d))
       continue;
@@ -251,26 +299,21 @@ void read_field(Program& program, design::Fabric& fabric, Given& given, const st
       fail(program, Message("G0314", "`" + name + "` says again what is already given", name_span)
                         .also(given.span[slot][d], "first here"));
     given.value[slot][d] = x;
-    given.span[slot][d] = expr.span;
+    given.span[slot][d] = value_span;
   }
 }
 
-void apply_record(Program& program, design::Fabric& fabric, const Expr& record, Scope& scope) {
-  Given given;
-  for (std::size_t k = 0; k < record.children.size() && k < record.labels.size(); ++k)
-    read_field(program, fabric, given, record.labels[k].text, record.labels[k].span, record.children[k],
-               scope);
+void apply_given(Program& program, design::Fabric& fabric, Given& given) {
   apply_plain(fabric, given);
+  apply_fast(program, fabric, given);
   apply_tensile(program, fabric, given);
 }
-
-}  // namespace
 
 std::optional<Value> fabric_field(const design::Fabric& fabric, const std::string& name) {
   if (name == "kind") return Value{fabric.kind};
   if (name == "source") return Value{fabric.source};
   const FieldName* field = find_field(name);
-  if (field == nullptr) return std::nullopt;
+  if (field == nullptr || is_fast(field->slot)) return std::nullopt;
   const SlotInfo& info = info_of(field->slot);
   const std::size_t d = field->direction == 1 ? 1 : 0;
   double value = get(fabric, field->slot, d);
@@ -281,7 +324,7 @@ std::optional<Value> fabric_field(const design::Fabric& fabric, const std::strin
 std::vector<std::string> fabric_field_names() {
   std::vector<std::string> names;
   for (const FieldName& field : kFields) names.emplace_back(field.name);
-  names.insert(names.end(), {"kind", "source", "color"});
+  names.insert(names.end(), {"kind", "source", "color", "pattern", "repeat"});
   return names;
 }
 
@@ -289,7 +332,8 @@ std::shared_ptr<const design::Fabric> fabric_from_record(Program& program, const
                                                          const Expr& record, Scope& scope) {
   auto fabric = std::make_shared<design::Fabric>(base != nullptr ? *base : design::Fabric{});
   if (base == nullptr) fabric->kind = "stated";
-  apply_record(program, *fabric, record, scope);
+  Given given;
+  apply_record(program, *fabric, given, record, scope);
   return fabric;
 }
 
@@ -316,30 +360,63 @@ Value eval_with(Program& program, const Expr& expr, Scope& scope) {
   return Value{RecordValue(fields)};
 }
 
+namespace {
+
+/// Assignments and clauses: each field on top of what is there.
+void change_field(Program& program, design::Fabric& fabric, Given& all, const std::string& name,
+                  Span name_span, const Expr& expr, Scope& scope) {
+  Given one;
+  take_field(program, fabric, one, name, name_span, eval(program, expr, scope), expr.span);
+  apply_given(program, fabric, one);
+  for (std::size_t slot = 0; slot < kSlotCount; ++slot)
+    for (std::size_t d = 0; d < 2; ++d)
+      if (one.value[slot][d]) all.value[slot][d] = one.value[slot][d], all.span[slot][d] = one.span[slot][d];
+}
+
+}  // namespace
+
 Value evaluate_fabric(Program& program, Declaration& declaration) {
   const Statement& statement = *declaration.statement;
-  Clauses clauses(program, statement, *declaration.scope);
+  Scope& scope = *declaration.scope;
+  Clauses clauses(program, statement, scope);
   const Expr& expr = clauses.value(clauses.need("="));
-  clauses.finish();
   auto fabric = std::make_shared<design::Fabric>();
-  if (expr.kind == ExprKind::record) {
-    *fabric = *fabric_from_record(program, nullptr, expr, *declaration.scope);
+  Given given;
+  const bool whole = expr.kind == ExprKind::record;
+  if (whole) {
+    fabric->kind = "stated";
+    apply_record(program, *fabric, given, expr, scope);
   } else {
-    const Value value = eval(program, expr, *declaration.scope);
-    const auto* given = value.as<FabricValue>();
-    if (given == nullptr)
-      fail(program,
-           Message("G0306", kind_of(value) + " where `fabric` takes a fabric", expr.span)
-               .help("write `fabrics.denim`, a record `{ W = 200 g/m^2, ... }` or `X with { ... }`"));
-    *fabric = *given->fabric;
+    const Value value = eval(program, expr, scope);
+    const auto* known = value.as<FabricValue>();
+    if (known == nullptr)
+      fail(program, Message("G0306", kind_of(value) + " where `fabric` takes a fabric", expr.span)
+                        .help("write `fabrics.denim`, a record `{ W = 200 g/m^2, ... }`, `X with { ... }` or "
+                              "`csv(\"FILE\", row: "
+                              "\"NAME\")`"));
+    *fabric = *known->fabric;
   }
+  for (const char* word : {"pattern", "repeat"})
+    if (const BoundClause* clause = clauses.find(word))
+      change_field(program, *fabric, given, word, clause->clause->word.span, clauses.value(*clause),
+                   *clause->scope);
+  clauses.finish();
   for (Override& change : declaration.overrides) {
     if (change.path.size() != 1) continue;
     change.used = true;
-    Given one;
-    read_field(program, *fabric, one, change.path[0], change.span, *change.value, *change.scope);
-    apply_plain(*fabric, one);
-    apply_tensile(program, *fabric, one);
+    change_field(program, *fabric, given, change.path[0], change.span, *change.value, *change.scope);
+  }
+  if (!program.in_library(statement.span)) {
+    const Span name = statement.name ? statement.name->span : statement.keyword.span;
+    if (whole) warn_defaults(program, given, declaration.name, name);
+    if (whole || !declaration.overrides.empty()) warn_implausible(program, *fabric, given, declaration.name);
+    if (!fabric->pattern.empty())
+      report(program, Message("G0460",
+                              "the picture on fabric `" + declaration.name +
+                                  "` is declared, but is not drawn yet: pictures and meshes show its colour",
+                              name)
+                          .warning()
+                          .help("nothing else depends on it"));
   }
   fabric->name = declaration.name;
   fabric->origin = program.origin(statement.span);

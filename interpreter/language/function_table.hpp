@@ -55,6 +55,7 @@ std::vector<FunctionRecord> number_functions();
 std::vector<FunctionRecord> garment_functions();
 std::vector<FunctionRecord> drape_functions();
 std::vector<FunctionRecord> shape_functions();
+std::vector<FunctionRecord> cloth_functions();
 }  // namespace detail
 
 }  // namespace garment::interpreter

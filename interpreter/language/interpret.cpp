@@ -6,8 +6,10 @@
 #include "interpreter/language/bodies.hpp"
 #include "interpreter/language/cascades.hpp"
 #include "interpreter/language/clauses.hpp"
+#include "interpreter/language/closures.hpp"
 #include "interpreter/language/declarations.hpp"
 #include "interpreter/language/fabrics.hpp"
+#include "interpreter/language/layers.hpp"
 #include "interpreter/language/libraries.hpp"
 #include "interpreter/language/notch_order.hpp"
 #include "interpreter/language/panels.hpp"
@@ -79,6 +81,8 @@ void run_all(Program& program) {
   if (program.has_error) return;  // what follows would speak of things that are not there
   check_both(program);
   check_components(program);
+  settle_layers(program);
+  check_buttons(program);
   check_chains(program);
   check_notch_order(program);
   if (!program.has_error) check_unsewn(program);

@@ -8,6 +8,7 @@
 #include "interpreter/language/fabrics.hpp"
 #include "interpreter/language/function_table.hpp"
 #include "interpreter/language/parts.hpp"
+#include "interpreter/language/regions.hpp"
 
 namespace garment::interpreter {
 namespace {
@@ -140,6 +141,17 @@ Value point_member(Program& program, const Expr& expr, const PointValue& p, cons
   fail_member(program, expr, kind_of(Value{p}), name, {"x", "y", "z"});
 }
 
+/// Properties of the things that have no kind of value of their own.
+Value thing_member(Program& program, const Expr& expr, const ThingValue& thing, const std::string& name) {
+  std::vector<std::string> names;
+  if (thing.keyword == "region") {
+    const design::Region& region = program.garment.regions[static_cast<std::size_t>(thing.index)];
+    if (const auto factor = region_member(region, name)) return *factor;
+    names = region_factor_names();
+  }
+  fail_member(program, expr, std::string(thing.keyword) + " `" + thing.declaration->name + "`", name, names);
+}
+
 /// `side.left`, the name that `both seam side` gives: one declared name with a dot in it.
 Declaration* dotted_declaration(const Expr& expr, const std::string& name, Scope& scope) {
   const Expr& base = expr.children[0];
@@ -171,6 +183,7 @@ Value eval_member(Program& program, const Expr& expr, Scope& scope) {
   }
   if (const auto* v = base.as<BodyValue>()) return body_member(program, expr, v->body, "", name);
   if (const auto* v = base.as<BodyPlaceValue>()) return body_member(program, expr, v->body, v->path, name);
+  if (const auto* v = base.as<ThingValue>()) return thing_member(program, expr, *v, name);
   fail(program, Message("G0311", kind_of(base) + " has no `" + name + "`", expr.name_span));
 }
 

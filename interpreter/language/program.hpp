@@ -132,8 +132,17 @@ struct PanelInfo {
   std::vector<Item> modifiers;        ///< `slash`, `move`, `scale` that act on it, in order
 };
 
+/// `start at X`: the place where closed rings begin.
+struct SeamStart {
+  int seam = -1, zip = -1;    ///< where one of these ends
+  int panel = -1;             ///< or a point of a panel
+  design::Point2 point{0, 0};
+  Span span;
+};
+
 struct SeamInfo {
   design::Seam seam;
+  std::vector<SeamStart> starts;
   std::vector<EdgeValue> sides;  ///< as written
   std::vector<Span> spans;
   bool ready = false;

@@ -54,6 +54,7 @@ class RecipeMaker {
     if (const BoundClause* of = clauses.find("of"))
       recipe_.fabric = {&clauses.value(*of), of->scope, of->clause->span};
     if (const BoundClause* on = clauses.find("on")) take_fold(*on);
+    for (const char* word : {"under", "over"}) clauses.skip(word);  // once all panels are known: settle_layers
     clauses.finish();
     if (!statement.operands.empty())
       fail(program_, Message("G0313", "this means nothing in a panel's head", statement.operands[0].span));

@@ -6,6 +6,7 @@
 
 #include "interpreter/language/edges.hpp"
 #include "interpreter/language/parts.hpp"
+#include "interpreter/language/seam_rings.hpp"
 #include "interpreter/language/seams.hpp"
 
 namespace garment::interpreter {
@@ -17,77 +18,78 @@ using design::Point2;
 constexpr double kSame = 1e-3;    // m, points of a panel this near are one corner
 constexpr double kUnsewn = 2e-3;  // m of an edge that may stay unsewn unsaid
 
-/// Corners of panels, joined where seams begin and end.
-class Corners {
- public:
-  explicit Corners(const Program& program) : program_(program) {}
+}  // namespace
 
-  std::size_t of(const EdgePart& part, bool at_end) {
-    const design::Panel& panel = program_.panels[static_cast<std::size_t>(part.panel)].panel;
-    const Point2 p =
-        design::edge_of(panel, part).curve.point_at(at_end ? part.to : part.from);
-    for (std::size_t k = 0; k < points_.size(); ++k)
-      if (points_[k].first == part.panel && (points_[k].second - p).norm() < kSame) return root(k);
-    points_.emplace_back(part.panel, p);
-    parent_.push_back(points_.size() - 1);
-    return points_.size() - 1;
-  }
+std::size_t SeamCorners::of_point(int panel, const Point2& p) {
+  for (std::size_t k = 0; k < points_.size(); ++k)
+    if (points_[k].first == panel && (points_[k].second - p).norm() < kSame) return root(k);
+  points_.emplace_back(panel, p);
+  parent_.push_back(points_.size() - 1);
+  return points_.size() - 1;
+}
 
-  void join(std::size_t a, std::size_t b) {
-    a = root(a);
-    b = root(b);
-    if (a != b) parent_[std::max(a, b)] = std::min(a, b);
-  }
+std::size_t SeamCorners::of(const EdgePart& part, bool at_end) {
+  const design::Panel& panel = program_.panels[static_cast<std::size_t>(part.panel)].panel;
+  return of_point(part.panel, design::edge_of(panel, part).curve.point_at(at_end ? part.to : part.from));
+}
 
-  /// The outer ends of a drawn dart's legs come together.
-  void join_legs(int panel) {
-    const design::Panel& p = program_.panels[static_cast<std::size_t>(panel)].panel;
-    for (const design::LegDart& dart : p.leg_darts)
-      for (std::size_t k = 0; k < p.edges.size(); ++k) {
-        const std::size_t next = (k + 1) % p.edges.size();
-        const std::string &one = p.edges[k].name, &two = p.edges[next].name;
-        if (!(one == dart.leg_a && two == dart.leg_b) && !(one == dart.leg_b && two == dart.leg_a)) continue;
-        const EdgePart in{panel, static_cast<int>(k), 0, p.edges[k].curve.length()};
-        const EdgePart out{panel, static_cast<int>(next), 0, p.edges[next].curve.length()};
-        join(of(in, false), of(out, true));
-      }
-  }
+void SeamCorners::join_legs(int panel) {
+  const design::Panel& p = program_.panels[static_cast<std::size_t>(panel)].panel;
+  for (const design::LegDart& dart : p.leg_darts)
+    for (std::size_t k = 0; k < p.edges.size(); ++k) {
+      const std::size_t next = (k + 1) % p.edges.size();
+      const std::string &one = p.edges[k].name, &two = p.edges[next].name;
+      if (!(one == dart.leg_a && two == dart.leg_b) && !(one == dart.leg_b && two == dart.leg_a)) continue;
+      const EdgePart in{panel, static_cast<int>(k), 0, p.edges[k].curve.length()};
+      const EdgePart out{panel, static_cast<int>(next), 0, p.edges[next].curve.length()};
+      join(of(in, false), of(out, true));
+    }
+}
 
-  std::size_t root(std::size_t k) const {
-    while (parent_[k] != k) k = parent_[k];
-    return k;
-  }
+void SeamCorners::join(std::size_t a, std::size_t b) {
+  a = root(a);
+  b = root(b);
+  if (a != b) parent_[std::max(a, b)] = std::min(a, b);
+}
 
- private:
-  const Program& program_;
-  std::vector<std::pair<int, Point2>> points_;
-  std::vector<std::size_t> parent_;
-};
+std::size_t SeamCorners::root(std::size_t k) const {
+  while (parent_[k] != k) k = parent_[k];
+  return k;
+}
 
-void check_links(Program& program, Corners& corners, const SeamInfo& info, std::size_t side) {
+namespace {
+
+std::string name_of_part(const Program& program, const EdgePart& part) {
+  const design::Panel& panel = program.panels[static_cast<std::size_t>(part.panel)].panel;
+  return panel.name + '.' + design::edge_of(panel, part).name;
+}
+
+void check_links(Program& program, SeamCorners& corners, const SeamInfo& info, std::size_t side) {
   const std::vector<EdgePart>& parts = info.seam.sides[side].parts;
   for (std::size_t k = 0; k + 1 < parts.size(); ++k) {
     if (corners.of(parts[k], true) == corners.of(parts[k + 1], false)) continue;
     const bool turned = corners.of(parts[k], true) == corners.of(parts[k + 1], true) ||
                         corners.of(parts[k], false) == corners.of(parts[k + 1], false);
-    auto name = [&](const EdgePart& part) {
-      const design::Panel& panel = program.panels[static_cast<std::size_t>(part.panel)].panel;
-      return panel.name + '.' + design::edge_of(panel, part).name;
-    };
     // Sides after the first run against the way they are written.
     const EdgePart& first = side > 0 ? parts[k + 1] : parts[k];
     const EdgePart& second = side > 0 ? parts[k] : parts[k + 1];
     report(
         program,
         Message("G0503",
-                "in seam `" + info.seam.name + "` the end of `" + name(first) +
-                    "` does not meet the start of `" + name(second) + "`",
+                "in seam `" + info.seam.name + "` the end of `" + name_of_part(program, first) +
+                    "` does not meet the start of `" + name_of_part(program, second) + "`",
                 info.spans[side])
             .help(turned ? "walk one of them the other way: put `-` before it"
                          : "links must meet where another seam joins them; is their order right, or a seam "
                            "between them missing?"));
     return;
   }
+}
+
+/// Ends that come together because the two sides of a seam or zip do.
+void join_ends(SeamCorners& corners, const std::vector<EdgePart>& a, const std::vector<EdgePart>& b) {
+  corners.join(corners.of(a.front(), false), corners.of(b.front(), false));
+  corners.join(corners.of(a.back(), true), corners.of(b.back(), true));
 }
 
 struct Interval {
@@ -130,33 +132,29 @@ void warn_sewn_twice(Program& program, const Cover& all) {
         if (std::min(a.to, b.to) - std::max(a.from, b.from) < kUnsewn) continue;
         const SeamInfo &one = program.seams[static_cast<std::size_t>(a.seam)],
                        &two = program.seams[static_cast<std::size_t>(b.seam)];
-        const design::Panel& panel = program.panels[static_cast<std::size_t>(key[0])].panel;
-        const design::Edge& edge = design::edge_of(panel, {key[0], key[2], 0, 0, static_cast<EdgePart::On>(key[1])});
+        const std::string edge =
+            name_of_part(program, {key[0], key[2], 0, 0, static_cast<EdgePart::On>(key[1])});
         PartGuard guard(program, two.part);
-        report(program,
-               Message("G0508",
-                       "edge `" + panel.name + '.' + edge.name +
-                           "` is sewn by seam `" + one.seam.name + "` and by seam `" + two.seam.name + "`",
-                       two.spans[0])
-                   .also(one.spans[0], "first here")
-                   .help("one seam may have more than two sides: `seam NAME: A to B to C`")
-                   .warning());
+        report(program, Message("G0508",
+                                "edge `" + edge + "` is sewn by seam `" + one.seam.name + "` and by seam `" +
+                                    two.seam.name + "`",
+                                two.spans[0])
+                            .also(one.spans[0], "first here")
+                            .help("one seam may have more than two sides: `seam NAME: A to B to C`")
+                            .warning());
       }
 }
 
 }  // namespace
 
 void check_chains(Program& program) {
-  Corners corners(program);
+  SeamCorners corners(program);
   for (std::size_t p = 0; p < program.panels.size(); ++p) corners.join_legs(static_cast<int>(p));
-  for (const SeamInfo& info : program.seams) {
-    if (!info.ready) continue;
-    for (const design::SeamSide& side : info.seam.sides) {
-      corners.join(corners.of(side.parts.front(), false),
-                   corners.of(info.seam.sides[0].parts.front(), false));
-      corners.join(corners.of(side.parts.back(), true), corners.of(info.seam.sides[0].parts.back(), true));
-    }
-  }
+  for (const SeamInfo& info : program.seams)
+    for (const design::SeamSide& side : info.seam.sides)
+      if (info.ready) join_ends(corners, side.parts, info.seam.sides[0].parts);
+  for (const design::Zip& zip : program.garment.zips)
+    if (!zip.sides[0].empty() && !zip.sides[1].empty()) join_ends(corners, zip.sides[0], zip.sides[1]);
   for (SeamInfo& info : program.seams) {
     if (!info.ready) continue;
     PartGuard guard(program, info.part);
@@ -165,7 +163,9 @@ void check_chains(Program& program) {
       check_links(program, corners, info, k);
       side.closed = corners.of(side.parts.front(), false) == corners.of(side.parts.back(), true);
     }
+    if (!program.has_error) settle_rings(program, corners, info);
   }
+  if (!program.has_error) check_twists(program);
 }
 
 void check_unsewn(Program& program) {
@@ -176,6 +176,11 @@ void check_unsewn(Program& program) {
   warn_sewn_twice(program, all);
   for (const design::Attachment& attachment : program.garment.attachments)
     for (const EdgePart& part : attachment.parts) cover(all, part, -1);
+  for (const design::Hem& hem : program.garment.hems)
+    for (const EdgePart& part : hem.parts) cover(all, part, -1);
+  for (const design::Zip& zip : program.garment.zips)
+    for (const std::vector<EdgePart>& side : zip.sides)
+      for (const EdgePart& part : side) cover(all, part, -1);
   for (std::size_t p = 0; p < program.panels.size(); ++p) {
     const PanelInfo& info = program.panels[p];
     PartGuard guard(program, info.part);

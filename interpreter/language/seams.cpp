@@ -5,21 +5,15 @@
 
 #include "interpreter/language/clauses.hpp"
 #include "interpreter/language/edges.hpp"
+#include "interpreter/language/seam_finish.hpp"
+#include "interpreter/language/seam_relations.hpp"
 
 namespace garment::interpreter {
 namespace {
 
-constexpr double kPlainTolerance = 2e-3;   // m, sides without a relation
-constexpr double kStatedTolerance = 0.01;  // of the length, sides with one
+constexpr double kOverlap = 2e-3;  // m of an edge that may be sewn twice unsaid
 
-/// A side as the statement gives it.
-struct Side {
-  const Expr* expr = nullptr;
-  EdgeValue edge;
-  const Clause* relation = nullptr;
-  double factor = 1;  ///< the side is this many times the seam
-  bool reversed = false;
-};
+bool is_relation(const std::string& word) { return word == "ease" || word == "gather" || word == "stretch"; }
 
 class SeamMaker {
  public:
@@ -30,7 +24,11 @@ class SeamMaker {
         scope_(*declaration.scope) {}
 
   void make(SeamInfo& info) {
-    for (const Clause& clause : statement_.clauses) take(clause);
+    SeamFinishReader finish(program_, declaration_);
+    for (std::size_t k = 0; k < statement_.clauses.size(); ++k) {
+      const Clause& clause = statement_.clauses[k];
+      if (!finish.take(clause, sides_.size())) take(clause);
+    }
     if (!statement_.operands.empty())
       fail(program_,
            Message("G0313", "this means nothing before the first side", statement_.operands[0].span));
@@ -40,15 +38,14 @@ class SeamMaker {
                                  (sides_.size() == 1 ? " side" : " sides"),
                              statement_.keyword.span)
                          .help("write `seam NAME: EDGE to EDGE`"));
+    add_assigned();
     info.seam.name = declaration_.name;
     info.seam.origin = program_.origin(statement_.span);
-    for (std::size_t k = 0; k < sides_.size(); ++k) {
-      info.sides.push_back(sides_[k].edge);
-      info.spans.push_back(sides_[k].expr->span);
-      info.seam.sides.push_back({program_.origin(sides_[k].expr->span), oriented(sides_[k], k > 0), false});
-      info.seam.ratio.push_back(sides_[k].factor / sides_.back().factor);
-    }
-    check_lengths();
+    for (std::size_t k = 0; k < sides_.size(); ++k) add_side(info, k);
+    check_itself(info);
+    info.seam.finish = finish.finish(info);
+    info.starts = finish.starts();
+    if (!check_side_lengths(program_, declaration_.name, sides_)) throw Stop{};
     info.ready = true;
   }
 
@@ -56,24 +53,36 @@ class SeamMaker {
   void take(const Clause& clause) {
     const std::string& word = clause.word.text;
     if (word == ":" || word == "to") return take_side(clause);
-    const ClauseRecord* record = find_clause(*find_construct("seam"), word);
-    if (record != nullptr && record->doc.empty())
-      fail(program_,
-           Message("G0315", "`" + word + "` of `seam` is not supported yet", clause.span).help(kStillToCome));
     if (sides_.empty()) fail(program_, Message("G0313", "`" + word + "` stands after its side", clause.span));
-    Side& side = sides_.back();
-    if (word == "reversed") {
-      if (side.reversed) fail(program_, Message("G0314", "`reversed` is given twice", clause.span));
-      if (!clause.values.empty())
-        fail(program_, Message("G0313", "`reversed` stands alone", clause.values[0].span));
-      side.reversed = true;
-      return;
+    SeamSideDraft& side = sides_.back();
+    if (is_relation(word)) return take_relation(program_, scope_, side, clause, assigned(word));
+    if (side.reversed) fail(program_, Message("G0314", "`reversed` is given twice", clause.span));
+    if (!clause.values.empty())
+      fail(program_, Message("G0313", "`reversed` stands alone", clause.values[0].span));
+    side.reversed = true;
+  }
+
+  /// `armhole.ease = 5%` changes the first such relation of the seam.
+  const Override* assigned(const std::string& word) {
+    for (Override& change : declaration_.overrides) {
+      if (change.used || change.path.size() != 1 || change.path[0] != word) continue;
+      change.used = true;
+      return &change;
     }
-    if (side.relation != nullptr)
-      fail(program_, Message("G0314", "the side has two relations", clause.span)
-                         .also(side.relation->span, "first here"));
-    side.relation = &clause;
-    take_relation(side, clause, *record);
+    return nullptr;
+  }
+
+  /// A relation that the statement does not have is put to its first side.
+  void add_assigned() {
+    for (Override& change : declaration_.overrides) {
+      if (change.used || change.path.size() != 1 || !is_relation(change.path[0])) continue;
+      change.used = true;
+      Clause& made = program_.made_clauses.emplace_back();
+      made.word = {change.path[0], change.span, {}};
+      made.values.push_back(*change.value);
+      made.span = change.span;
+      take_relation(program_, scope_, sides_[0], made, &change);
+    }
   }
 
   void take_side(const Clause& clause) {
@@ -85,127 +94,56 @@ class SeamMaker {
                    span)
                .help("chains are written `a + b`"));
     }
-    Side side;
+    SeamSideDraft side;
     side.expr = &clause.values[0];
     side.edge = eval_edges(program_, *side.expr, scope_, "a side of a seam");
     sides_.push_back(std::move(side));
   }
 
-  void take_relation(Side& side, const Clause& clause, const ClauseRecord& record) {
-    if (clause.values.empty())
-      fail(program_, Message("G0312", "`" + clause.word.text + "` needs a value", clause.word.span));
-    if (clause.values.size() > 1)
-      fail(program_,
-           Message("G0315", "a relation on part of a side is not supported yet", clause.values[1].span)
-               .help("state it for the whole side"));
-    const Quantity q =
-        eval_quantity(program_, clause.values[0], scope_, kNumber, "`" + clause.word.text + "`");
-    const double x = checked_quantity(program_, record, q, clause.values[0].span);
-    if (clause.word.text == "ease") side.factor = 1 + x;
-    if (clause.word.text == "gather") side.factor = x;
-    if (clause.word.text == "stretch") side.factor = 1 / (1 + x);
-  }
-
   /// Parts along the seam. The first side runs counter-clockwise, the others against it.
-  std::vector<design::EdgePart> oriented(const Side& side, bool against) const {
-    std::vector<design::EdgePart> parts;
-    for (const EdgeSpan& span : side.edge.spans) {
-      EdgeSpan turned = counter_clockwise(program_, span);
-      if (span.backwards) turned = reversed(turned);
-      parts.insert(parts.end(), turned.parts.begin(), turned.parts.end());
-    }
-    if (against != side.reversed) {
-      std::reverse(parts.begin(), parts.end());
-      for (design::EdgePart& part : parts) std::swap(part.from, part.to);
-    }
-    return parts;
+  void add_side(SeamInfo& info, std::size_t k) {
+    const SeamSideDraft& draft = sides_[k];
+    info.sides.push_back(draft.edge);
+    info.spans.push_back(draft.expr->span);
+    design::SeamSide side;
+    side.origin = program_.origin(draft.expr->span);
+    for (const SidePiece& piece : pieces_along(program_, draft, (k > 0) != draft.reversed))
+      for (const design::EdgePart& part : piece.span.parts) {
+        side.parts.push_back(part);
+        if (!draft.parts.empty()) side.fullness.push_back(piece.fullness);
+      }
+    info.seam.sides.push_back(std::move(side));
+    info.seam.ratio.push_back(draft.factor / sides_.back().factor);
   }
 
-  /// "224 mm + 252 mm".
-  std::string lengths(const Side& side) const {
-    std::string text;
-    for (const EdgeSpan& span : side.edge.spans)
-      text += (text.empty() ? "" : " + ") + format_mm(sewn_length(program_, span));
-    return text;
-  }
-
-  std::string relation_text(const Side& side) const {
-    if (side.relation == nullptr) return "";
-    return std::string(program_.sources.text(side.relation->span));
-  }
-
-  void check_lengths() {
-    const Side& last = sides_.back();
-    for (std::size_t k = 0; k + 1 < sides_.size(); ++k) {
-      const Side& side = sides_[k];
-      const double length = sewn_length(program_, side.edge), other = sewn_length(program_, last.edge);
-      const double wanted = side.factor / last.factor * other, excess = length - wanted;
-      const bool stated = side.relation != nullptr || last.relation != nullptr;
-      const double tolerance =
-          stated ? std::max(kPlainTolerance, kStatedTolerance * wanted) : kPlainTolerance;
-      if (std::fabs(excess) <= tolerance + 1e-9) continue;
-      report_lengths(side, last, length, other, wanted);
-      failed_ = true;
-    }
-    if (failed_) throw Stop{};
-  }
-
-  void report_lengths(const Side& side, const Side& last, double length, double other, double wanted) {
-    const double excess = length - wanted;
-    std::string expected = lengths(last);
-    const bool stated = side.relation != nullptr || last.relation != nullptr;
-    if (stated) {
-      expected += ", with ";
-      if (side.relation != nullptr) expected += relation_text(side);
-      if (side.relation != nullptr && last.relation != nullptr) expected += " and ";
-      if (last.relation != nullptr) expected += relation_text(last);
-      expected += ' ' + format_mm(wanted);
-    }
-    Message message("G0501",
-                    "seam `" + declaration_.name + "` is " + format_mm(std::fabs(excess)) +
-                        (excess > 0 ? " too long" : " too short") + " on the `" + name_of_side(side) +
-                        "` side",
-                    side.expr->span, lengths(side));
-    message.also(last.expr->span, expected);
-    fail_with_remedy(message, side, last, length, other);
-  }
-
-  static std::string name_of_side(const Side& side) { return show(Value{side.edge}); }
-
-  static std::string percent(double x) { return format_quantity(std::round(1000 * x) / 1000, kNumber, true); }
-
-  void fail_with_remedy(Message& message, const Side& side, const Side& last, double length, double other) {
-    const double ratio = length / other * last.factor;  // of this side, the other's relation kept
-    const std::string name = name_of_side(side);
-    std::string help;
-    if (other <= 0 || length <= 0) {
-      help = "a side has no length";
-    } else if (side.relation != nullptr && last.relation == nullptr) {
-      const std::string& word = side.relation->word.text;
-      if (word == "gather" && ratio >= 1)
-        help = "`gather " + format_quantity(ratio, kNumber, false, 3) + "` would fit";
-      else if (ratio >= 1)
-        help = "`ease " + percent(ratio - 1) + "` would fit";
-      else
-        help = "`stretch " + percent(1 / ratio - 1) + "` would fit";
-    } else if (ratio > 1.3) {
-      help = "make the sides alike, or gather: `" + name + " gather " +
-             format_quantity(ratio, kNumber, false, 3) + "`";
-    } else if (ratio > 1) {
-      help = "make the sides alike, or state the difference: `" + name + " ease " + percent(ratio - 1) + "`";
-    } else {
-      help = "make the sides alike, or state the difference on the longer side: `" + name_of_side(last) +
-             " ease " + percent(last.factor / ratio - 1) + "`";
-    }
-    report(program_, message.help(help));
+  /// One stretch of cloth cannot be sewn to itself.
+  void check_itself(const SeamInfo& info) {
+    std::vector<std::pair<design::EdgePart, std::size_t>> seen;
+    for (std::size_t k = 0; k < info.seam.sides.size(); ++k)
+      for (const design::EdgePart& part : info.seam.sides[k].parts) {
+        for (const auto& [other, side] : seen) {
+          if (other.panel != part.panel || other.edge != part.edge || other.on != part.on) continue;
+          const double low = std::max(std::min(part.from, part.to), std::min(other.from, other.to));
+          const double high = std::min(std::max(part.from, part.to), std::max(other.from, other.to));
+          if (high - low < kOverlap) continue;
+          Message message("G0509",
+                          "seam `" + declaration_.name + "` sews " + format_mm(high - low) + " of `" +
+                              show(Value{sides_[k].edge}) + "` to itself",
+                          sides_[k].expr->span);
+          if (side != k) message.also(sides_[side].expr->span, "the same cloth");
+          fail(program_,
+               message.help("name the other edge, or two parts of it that do not overlap: `e[start .. "
+                            "middle]` to `e[middle .. end]`"));
+        }
+        seen.emplace_back(part, k);
+      }
   }
 
   Program& program_;
   Declaration& declaration_;
   const Statement& statement_;
   Scope& scope_;
-  std::vector<Side> sides_;
-  bool failed_ = false;
+  std::vector<SeamSideDraft> sides_;
 };
 
 }  // namespace

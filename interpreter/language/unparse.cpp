@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "interpreter/language/unparse_cloth.hpp"
 #include "interpreter/language/unparse_seam.hpp"
 #include "interpreter/language/unparse_text.hpp"
 #include "interpreter/language/unparse_things.hpp"
@@ -48,6 +49,8 @@ class Unparser {
     for (std::size_t p = 0; p < garment_.panels.size(); ++p) write_panel(p);
     group();
     for (std::size_t i = 0; i < garment_.seams.size(); ++i) line(text::seam(garment_, names_, i));
+    group();
+    for (const std::string& statement : text::cloth_statements(garment_, names_)) line(statement);
     group();
     for (std::size_t p = 0; p < garment_.panels.size(); ++p) write_placement(p);
     group();
@@ -112,7 +115,8 @@ class Unparser {
   void write_panel(std::size_t p) {
     const design::Panel& panel = garment_.panels[p];
     group();
-    line(fmt::format("panel {} of {} {{", names_.panels[p], names_.fabrics[panel.fabric]));
+    line(fmt::format("panel {} of {}{} {{", names_.panels[p], names_.fabrics[panel.fabric],
+                     text::stacking_clauses(garment_, names_, p)));
     write_loop("outline", panel.edges, names_.edges[p], 0, panel.edges.size());
     write_inside(p);
     write_details(p);

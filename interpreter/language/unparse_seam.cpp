@@ -5,11 +5,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "interpreter/language/unparse_cloth.hpp"
+
 namespace garment::interpreter::text {
 namespace {
 
 using design::EdgePart;
-using Parts = std::vector<EdgePart>;
+
+/// A link of a side: its part and how full it is sewn in.
+struct Link {
+  EdgePart part;
+  double fullness = 1;
+};
+using Links = std::vector<Link>;
 
 constexpr double kSliver = 1e-8;  ///< m; shorter rests of an edge are none
 
@@ -32,17 +40,17 @@ bool with_loop(const design::Garment& garment, const EdgePart& part) {
   return drawn == (area < 0);
 }
 
-void turn_round(Parts& parts) {
-  std::reverse(parts.begin(), parts.end());
-  for (EdgePart& part : parts) std::swap(part.from, part.to);
+void turn_round(Links& links) {
+  std::reverse(links.begin(), links.end());
+  for (Link& link : links) std::swap(link.part.from, link.part.to);
 }
 
 /// Links in the order written, each counter-clockwise unless it has a minus.
-std::string chain(const design::Garment& garment, const Names& names, const Parts& parts) {
+std::string chain(const design::Garment& garment, const Names& names, const Links& links) {
   std::string text;
-  for (std::size_t i = 0; i < parts.size(); ++i)
-    text += fmt::format("{}{}{}", i > 0 ? " + " : "", with_loop(garment, parts[i]) ? "" : "-",
-                        edge_part(garment, names, parts[i]));
+  for (std::size_t i = 0; i < links.size(); ++i)
+    text += fmt::format("{}{}{}", i > 0 ? " + " : "", with_loop(garment, links[i].part) ? "" : "-",
+                        edge_part(garment, names, links[i].part));
   return text;
 }
 
@@ -53,6 +61,21 @@ std::string relation(double ratio) {
   if (ratio >= 1.5) return " gather " + number(ratio);
   if (ratio > 1) return fmt::format(" ease {}%", number(std::round((ratio - 1) * 1e12) / 1e10));
   return fmt::format(" stretch {}%", number(std::round((1 / ratio - 1) * 1e12) / 1e10));
+}
+
+/// " ease 6% [5 cm .. 12 cm]" for each run of links with a fullness of its own.
+std::string part_relations(const Links& links) {
+  std::string text;
+  double at = 0;
+  for (std::size_t i = 0; i < links.size();) {
+    const double fullness = links[i].fullness, from = at;
+    for (; i < links.size() && links[i].fullness == fullness; ++i)
+      at += std::abs(links[i].part.to - links[i].part.from);
+    if (std::abs(fullness - 1) < 1e-12) continue;
+    text += fmt::format("{} [{} .. {}]", relation(fullness), from <= kSliver ? "start" : length(from),
+                        i == links.size() ? "end" : length(at));
+  }
+  return text;
 }
 
 }  // namespace
@@ -68,23 +91,30 @@ std::string edge_part(const design::Garment& garment, const Names& names, const 
 
 std::string seam(const design::Garment& garment, const Names& names, std::size_t index) {
   const design::Seam& seam = garment.seams[index];
-  std::vector<Parts> sides;
-  for (const design::SeamSide& side : seam.sides) sides.push_back(side.parts);
+  std::vector<Links> sides;
+  for (const design::SeamSide& side : seam.sides) {
+    Links& links = sides.emplace_back();
+    for (std::size_t k = 0; k < side.parts.size(); ++k) links.push_back({side.parts[k], side.fullness_of(k)});
+  }
   // The rule walks the first side with its loop; turning all sides round at once changes nothing.
-  if (!sides.empty() && !sides[0].empty() && !with_loop(garment, sides[0][0]))
-    for (Parts& parts : sides) turn_round(parts);
+  if (!sides.empty() && !sides[0].empty() && !with_loop(garment, sides[0][0].part))
+    for (Links& links : sides) turn_round(links);
 
   std::string text = fmt::format("seam {}:", names.seams[index]);
   for (std::size_t i = 0; i < sides.size(); ++i) {
     if (sides[i].empty()) continue;
     // Later sides are written with their loops too, and the seam runs them from the end to the start.
-    bool reversed = i > 0 && with_loop(garment, sides[i][0]);
+    bool reversed = i > 0 && with_loop(garment, sides[i][0].part);
     if (i > 0 && !reversed) turn_round(sides[i]);
     text += fmt::format("{} {}", i > 0 ? " to" : "", chain(garment, names, sides[i]));
-    if (i + 1 < sides.size() && i < seam.ratio.size()) text += relation(seam.ratio[i]);
+    const std::string parts = part_relations(sides[i]);
+    if (!parts.empty())
+      text += parts;
+    else if (i + 1 < sides.size() && i < seam.ratio.size())
+      text += relation(seam.ratio[i]);
     if (reversed) text += " reversed";
   }
-  return text;
+  return text + finish_clauses(garment, names, seam);
 }
 
 }  // namespace garment::interpreter::text

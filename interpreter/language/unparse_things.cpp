@@ -69,6 +69,10 @@ std::vector<std::string> fields_of(const design::Fabric& f) {
   if (f.color != design::Fabric{}.color)
     fields.push_back(
         fmt::format("color = \"#{}{}{}\"", channel(f.color[0]), channel(f.color[1]), channel(f.color[2])));
+  if (!f.pattern.empty()) {
+    fields.push_back("pattern = " + quoted(f.pattern));
+    field("repeat", f.pattern_repeat, "m");
+  }
   if (!f.kind.empty() && f.kind != "stated") fields.push_back("kind = " + quoted(f.kind));
   if (!f.source.empty()) fields.push_back("source = " + quoted(f.source));
   return fields;

@@ -32,6 +32,8 @@ struct Fabric {
   double friction = 0.3;                     ///< Coulomb, cloth on body
   double damping = 0.02;                     ///< tau of the Kelvin damper, s
   std::array<double, 3> color{0.45, 0.48, 0.55};       ///< sRGB, 0..1
+  std::string pattern;                       ///< picture printed on the face, a file below the script's folder; or empty
+  double pattern_repeat = 0.1;               ///< width of one repeat of the picture along the weft, m
 };
 
 }  // namespace garment::design

@@ -8,43 +8,15 @@
 #include <variant>
 #include <vector>
 
+#include "runtime/design/closures.hpp"
 #include "runtime/design/fabric.hpp"
+#include "runtime/design/layers.hpp"
 #include "runtime/design/panel.hpp"
+#include "runtime/design/pressing.hpp"
+#include "runtime/design/region.hpp"
+#include "runtime/design/seam.hpp"
 
 namespace garment::design {
-
-/// Part of an edge, walked from arc length `from` to arc length `to` (from > to walks it backwards), metres along the
-/// edge as cut.
-struct EdgePart {
-  int panel = -1;       ///< index into Garment::panels
-  int edge = -1;        ///< index into the list of the panel that `on` names
-  double from = 0, to = 0;
-  enum class On : std::uint8_t { outline, hole, line } on = On::outline;  ///< Panel::edges, hole_edges or lines
-};
-
-/// The edge or interior line that a part belongs to.
-inline const Edge& edge_of(const Panel& panel, const EdgePart& part) {
-  const std::size_t k = static_cast<std::size_t>(part.edge);
-  if (part.on == EdgePart::On::hole) return panel.hole_edges[k];
-  return part.on == EdgePart::On::line ? panel.lines[k] : panel.edges[k];
-}
-
-/// One side of a seam: parts that follow each other. The start of every side meets the start of the others.
-struct SeamSide {
-  OriginId origin;
-  std::vector<EdgePart> parts;
-  bool closed = false;  ///< a ring: its end is its start
-};
-
-/// Sides sewn together. Corresponding points are at equal fractions of sewn length (darts closed).
-struct Seam {
-  std::string name;
-  OriginId origin;
-  std::vector<SeamSide> sides;
-  /// What the script states about the length of side i against the last side: length_i = ratio * length_last.
-  /// 1 is plain, 1.06 is 6 % ease, 1.8 a gather. `nan` means: whatever the lengths are (imports).
-  std::vector<double> ratio;
-};
 
 /// Edges held at a level of a body, or along a curve on it.
 struct Attachment {
@@ -105,6 +77,16 @@ struct Garment {
   std::vector<Body> bodies;
   std::vector<Panel> panels;
   std::vector<Seam> seams;
+  std::vector<Hem> hems;
+  std::vector<Tack> tacks;
+  std::vector<Button> buttons;
+  std::vector<Zip> zips;
+  std::vector<Region> regions;
+  std::vector<Layer> layers;
+  std::vector<Pad> pads;
+  std::vector<Stacking> stackings;
+  std::vector<Press> presses;
+  std::vector<Starch> starches;
   std::vector<Attachment> attachments;
   std::vector<Pin> pins;
   Eigen::Vector3d gravity{0, -9.80665, 0};

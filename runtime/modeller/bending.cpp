@@ -7,6 +7,7 @@
 
 #include "runtime/base/parallel.hpp"
 #include "runtime/modeller/chart.hpp"
+#include "runtime/modeller/region_fields.hpp"
 
 namespace garment::modeller {
 namespace {
@@ -68,11 +69,14 @@ std::vector<GridStencil> grid_stencils(const model::Model& model) {
 }
 
 /// Plate matrix, in (11, 22, 12), of a cloth whose warp runs along the unit vector `warp` of the chart.
-Matrix3d plate_matrix(const design::Fabric& fabric, const Vector2d& warp) {
+Matrix3d plate_matrix(const design::Fabric& fabric, const design::RegionFactors& factors,
+                      const Vector2d& warp) {
   double c = warp.x(), s = warp.y();
   Matrix3d turn;
   turn << c * c, s * s, 2 * s * c, s * s, c * c, -2 * s * c, -s * c, s * c, c * c - s * s;
-  Eigen::Vector3d own(fabric.bending_rigidity[0], fabric.bending_rigidity[1], 4 * twist_rigidity(fabric));
+  Eigen::Vector3d own(fabric.bending_rigidity[0] * factors.bend_warp,
+                      fabric.bending_rigidity[1] * factors.bend_weft,
+                      4 * twist_rigidity(fabric) * factors.twist);
   return turn.transpose() * own.asDiagonal() * turn;
 }
 
@@ -83,8 +87,8 @@ struct Fit {
 };
 
 /// Adds the plate matrices of the panels in the chart's fan: the area mean over each panel's triangles.
-void add_plates(const Sheet& sheet, const std::vector<MeshedPanel>& panels, const model::Model& model,
-                const Chart& chart, Fit& fit) {
+void add_plates(const Sheet& sheet, const std::vector<MeshedPanel>& panels, const RegionFields& regions,
+                const model::Model& model, const Chart& chart, Fit& fit) {
   std::vector<double> area;
   for (std::size_t k = 0; k < chart.fan.size(); ++k) {
     const FanTriangle& f = chart.fan[k];
@@ -102,14 +106,19 @@ void add_plates(const Sheet& sheet, const std::vector<MeshedPanel>& panels, cons
       fit.plate.emplace_back(panel, Matrix3d::Zero());
       area.push_back(0);
     }
-    fit.plate[slot].second += weight * plate_matrix(*panels[panel].fabric, warp);
+    design::RegionFactors factors;
+    if (!regions.plain(panel))
+      factors =
+          regions.at(panel, (model.vertex_uv[v[0]] + model.vertex_uv[v[1]] + model.vertex_uv[v[2]]) / 3);
+    fit.plate[slot].second += weight * plate_matrix(*panels[panel].fabric, factors, warp);
     area[slot] += weight;
   }
   for (std::size_t slot = 0; slot < area.size(); ++slot) fit.plate[slot].second /= area[slot];
 }
 
 std::vector<Fit> make_fits(const Sheet& sheet, const std::vector<MeshedPanel>& panels,
-                           const model::Model& model, const std::vector<Index>& at, const std::vector<char>& joined) {
+                           const RegionFields& regions, const model::Model& model,
+                           const std::vector<Index>& at, const std::vector<char>& joined) {
   std::vector<Fit> fits(at.size());
   parallel_for(at.size(), 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
@@ -120,7 +129,7 @@ std::vector<Fit> make_fits(const Sheet& sheet, const std::vector<MeshedPanel>& p
         chart = develop(sheet, model, at[k], 3);
         fits[k].curvature = fit_curvature(*chart, at[k], joined[at[k]] != 0);
       }
-      add_plates(sheet, panels, model, *chart, fits[k]);
+      add_plates(sheet, panels, regions, model, *chart, fits[k]);
     }
   });
   return fits;
@@ -177,30 +186,38 @@ void hand_over_areas(const Sheet& sheet, const model::Model& model, const std::v
   }
 }
 
-void add_grid_bending(const std::vector<MeshedPanel>& panels, const std::vector<GridStencil>& stencils,
-                      const std::vector<Areas>& areas, model::Model& model) {
+void add_grid_bending(const std::vector<MeshedPanel>& panels, const RegionFields& regions,
+                      const std::vector<GridStencil>& stencils, const std::vector<Areas>& areas,
+                      model::Model& model) {
+  std::vector<Index> vertex(model.n_particles(), 0);  // grid particles have one each
+  for (std::size_t v = 0; v < model.n_vertices(); ++v)
+    vertex[model.vertex_particle[v]] = static_cast<Index>(v);
   for (std::size_t i = 0; i < stencils.size(); ++i) {
     const GridStencil& s = stencils[i];
     if (!s.complete()) continue;
     const auto &ahead = model.cell[s.cell[0]], &behind = model.cell[s.cell[2]];
     Vector2d h = model.cell_size[s.cell[0]];
     double area = total(areas[i]);
-    const design::Fabric& fabric = *panels[areas[i].front().panel].fabric;
+    const Index panel = areas[i].front().panel;
+    const design::Fabric& fabric = *panels[panel].fabric;
+    design::RegionFactors factors;
+    if (!regions.plain(panel)) factors = regions.at(panel, model.vertex_uv[vertex[i]]);
     auto at = static_cast<Index>(i);
     model.bend.push_back({behind[1], at, ahead[3]});
     model.bend_lengths.emplace_back(h.y(), h.y());
     model.bend_width.push_back(area / h.y());
-    model.bend_rigidity.push_back(fabric.bending_rigidity[0]);
+    model.bend_rigidity.push_back(fabric.bending_rigidity[0] * factors.bend_warp);
     model.bend.push_back({behind[3], at, ahead[1]});
     model.bend_lengths.emplace_back(h.x(), h.x());
     model.bend_width.push_back(area / h.x());
-    model.bend_rigidity.push_back(fabric.bending_rigidity[1]);
-    for (Index c : s.cell) model.cell_twist[c] += twist_rigidity(fabric) * area / (4 * h.x() * h.y());
+    model.bend_rigidity.push_back(fabric.bending_rigidity[1] * factors.bend_weft);
+    for (Index c : s.cell)
+      model.cell_twist[c] += twist_rigidity(fabric) * factors.twist * area / (4 * h.x() * h.y());
   }
 }
 
-void add_stencil(const std::vector<Index>& particles, const std::vector<Eigen::Vector3d>& weights, double area,
-                 const Matrix3d& rigidity, model::Model& model) {
+void add_stencil(const std::vector<Index>& particles, const std::vector<Eigen::Vector3d>& weights,
+                 double area, const Matrix3d& rigidity, model::Model& model) {
   const Matrix3d& d = rigidity;
   model.fit_particle.insert(model.fit_particle.end(), particles.begin(), particles.end());
   model.fit_weight.insert(model.fit_weight.end(), weights.begin(), weights.end());
@@ -222,12 +239,13 @@ void add_fit(const Fit& fit, const Areas& areas, model::Model& model) {
   sum /= area;
   add_stencil(fit.curvature.particle, fit.curvature.weight, area, sum, model);
   const Matrix3d stiff = Matrix3d::Identity() * (kResidualShare * (sum(0, 0) + sum(1, 1)) / 2);
-  for (const auto& group : fit.curvature.residual) add_stencil(fit.curvature.particle, group, area, stiff, model);
+  for (const auto& group : fit.curvature.residual)
+    add_stencil(fit.curvature.particle, group, area, stiff, model);
 }
 
 }  // namespace
 
-void add_bending(const std::vector<MeshedPanel>& panels, model::Model& model) {
+void add_bending(const std::vector<MeshedPanel>& panels, const RegionFields& regions, model::Model& model) {
   Sheet sheet = make_sheet(model);
   std::vector<GridStencil> grid = grid_stencils(model);
   std::vector<char> has_stencil(model.n_particles(), 0);
@@ -240,7 +258,7 @@ void add_bending(const std::vector<MeshedPanel>& panels, model::Model& model) {
   std::vector<char> joined(model.n_particles(), 0);
   std::vector<int> vertices(model.n_particles(), 0);
   for (Index i : model.vertex_particle) joined[i] = ++vertices[i] > 1;
-  std::vector<Fit> fits = make_fits(sheet, panels, model, others, joined);
+  std::vector<Fit> fits = make_fits(sheet, panels, regions, model, others, joined);
   for (std::size_t k = 0; k < others.size(); ++k) has_stencil[others[k]] = !fits[k].plate.empty();
   std::vector<Areas> areas(model.n_particles());
   for (std::size_t p = 0; p < panels.size(); ++p)
@@ -248,7 +266,7 @@ void add_bending(const std::vector<MeshedPanel>& panels, model::Model& model) {
       add_area(areas[model.vertex_particle[panels[p].first_vertex + v]], static_cast<Index>(p),
                panels[p].vertex_area[v]);
   hand_over_areas(sheet, model, has_stencil, areas);
-  add_grid_bending(panels, grid, areas, model);
+  add_grid_bending(panels, regions, grid, areas, model);
   model.fit_begin.assign(1, 0);
   for (std::size_t k = 0; k < others.size(); ++k)
     if (has_stencil[others[k]]) add_fit(fits[k], areas[others[k]], model);

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "runtime/base/number.hpp"
+#include "runtime/modeller/region_fields.hpp"
 #include "runtime/modeller/tensile_law.hpp"
 
 namespace garment::modeller {
@@ -18,22 +19,64 @@ double triangle_area(const PanelMesh& mesh, const std::array<int, 3>& t) {
   return 0.5 * cross(mesh.at[t[1]] - mesh.at[t[0]], mesh.at[t[2]] - mesh.at[t[0]]);
 }
 
-void add_springs(const MeshedPanel& p, Index panel_index, Index warp_law, model::Model& model) {
+/// The tensile laws of all fabrics, warp and weft, then those that regions make stiffer or softer.
+class Laws {
+ public:
+  Laws(const design::Garment& garment, model::Model& model) : model_(model) {
+    for (const design::Fabric& fabric : garment.fabrics)
+      for (const design::Tensile& tensile : fabric.tensile) model.laws.push_back(make_tensile_law(tensile));
+  }
+  Index scaled(Index law, double factor) {
+    if (factor == 1) return law;
+    for (const Made& made : made_)
+      if (made.base == law && made.factor == factor) return made.law;
+    model::TensileLaw copy = model_.laws[law];
+    for (double& force : copy.force) force *= factor;
+    for (double& slope : copy.slope) slope *= factor;
+    model_.laws.push_back(std::move(copy));
+    made_.push_back({law, factor, static_cast<Index>(model_.laws.size() - 1)});
+    return made_.back().law;
+  }
+
+ private:
+  struct Made {
+    Index base;
+    double factor;
+    Index law;
+  };
+  model::Model& model_;
+  std::vector<Made> made_;
+};
+
+/// A panel's elements with what the regions say of them.
+struct PanelElements {
+  const MeshedPanel& panel;
+  Index index, warp_law;
+  const RegionFields& regions;
+  Laws& laws;
+
+  design::RegionFactors factors(const Point2& middle) const {
+    return regions.plain(index) ? design::RegionFactors{} : regions.at(index, middle);
+  }
+};
+
+void add_springs(const PanelElements& e, model::Model& model) {
+  const MeshedPanel& p = e.panel;
   struct HalfSide {
     int u, v;
     double rest, width;
-    Index law;
+    Index weft;
   };
   std::vector<HalfSide> sides;
   double h1 = p.mesh.cell_size.x(), h2 = p.mesh.cell_size.y();
   for (const auto& c : p.mesh.cells) {
-    auto add = [&](int u, int v, double rest, double width, Index law) {
-      sides.push_back({std::min(u, v), std::max(u, v), rest, width, law});
+    auto add = [&](int u, int v, double rest, double width, Index weft) {
+      sides.push_back({std::min(u, v), std::max(u, v), rest, width, weft});
     };
-    add(c[0], c[1], h1, h2 / 2, warp_law + 1);
-    add(c[3], c[2], h1, h2 / 2, warp_law + 1);
-    add(c[0], c[3], h2, h1 / 2, warp_law);
-    add(c[1], c[2], h2, h1 / 2, warp_law);
+    add(c[0], c[1], h1, h2 / 2, 1);
+    add(c[3], c[2], h1, h2 / 2, 1);
+    add(c[0], c[3], h2, h1 / 2, 0);
+    add(c[1], c[2], h2, h1 / 2, 0);
   }
   std::sort(sides.begin(), sides.end(),
             [](const HalfSide& a, const HalfSide& b) { return a.u != b.u ? a.u < b.u : a.v < b.v; });
@@ -47,12 +90,14 @@ void add_springs(const MeshedPanel& p, Index panel_index, Index warp_law, model:
     model.spring.push_back({particle[s.u], particle[s.v]});
     model.spring_rest.push_back(s.rest);
     model.spring_width.push_back(s.width);
-    model.spring_law.push_back(s.law);
-    model.spring_panel.push_back(panel_index);
+    const design::RegionFactors f = e.factors((p.mesh.at[s.u] + p.mesh.at[s.v]) / 2);
+    model.spring_law.push_back(e.laws.scaled(e.warp_law + s.weft, s.weft ? f.stretch_weft : f.stretch_warp));
+    model.spring_panel.push_back(e.index);
   }
 }
 
-void add_membranes(const MeshedPanel& p, Index panel_index, Index warp_law, model::Model& model) {
+void add_membranes(const PanelElements& e, model::Model& model) {
+  const MeshedPanel& p = e.panel;
   const Index* particle = model.vertex_particle.data() + p.first_vertex;
   Point2 warp = p.frame.warp(), weft = p.frame.weft();
   for (const auto& t : p.mesh.cut) {
@@ -67,9 +112,11 @@ void add_membranes(const MeshedPanel& p, Index panel_index, Index warp_law, mode
     model.membrane.push_back({particle[t[0]], particle[t[1]], particle[t[2]]});
     model.membrane_weights.push_back(weights);
     model.membrane_area.push_back(area);
-    model.membrane_law.push_back({warp_law, warp_law + 1});
-    model.membrane_shear.push_back(p.fabric->shear_rigidity);
-    model.membrane_panel.push_back(panel_index);
+    const design::RegionFactors f = e.factors((p.mesh.at[t[0]] + p.mesh.at[t[1]] + p.mesh.at[t[2]]) / 3);
+    model.membrane_law.push_back(
+        {e.laws.scaled(e.warp_law, f.stretch_warp), e.laws.scaled(e.warp_law + 1, f.stretch_weft)});
+    model.membrane_shear.push_back(p.fabric->shear_rigidity * f.shear);
+    model.membrane_panel.push_back(e.index);
   }
 }
 
@@ -109,8 +156,8 @@ std::vector<double> vertex_areas(const PanelMesh& mesh, const Border& border, do
 }
 
 bool add_particles(const design::Garment& garment, const std::vector<MeshedPanel>& panels,
-                   const std::vector<double>& areas, const std::vector<Index>& particle, model::Model& model,
-                   Findings& findings) {
+                   const std::vector<double>& areas, const std::vector<Index>& particle,
+                   const RegionFields& regions, model::Model& model, Findings& findings) {
   bool ok = true;
   std::size_t n_particles = 0;
   for (Index i : particle) n_particles = std::max(n_particles, static_cast<std::size_t>(i) + 1);
@@ -134,9 +181,13 @@ bool add_particles(const design::Garment& garment, const std::vector<MeshedPanel
       Index at = particle[p.first_vertex + v];
       model.vertex_panel.push_back(static_cast<Index>(i));
       model.vertex_uv.push_back(p.mesh.at[v]);
-      model.mass[at] += p.fabric->areal_density * p.vertex_area[v];
-      model.thickness[at] = std::max(model.thickness[at], p.fabric->thickness);
-      model.friction[at] += p.fabric->friction;
+      const design::RegionFactors f =
+          regions.plain(i) ? design::RegionFactors{} : regions.at(i, p.mesh.at[v]);
+      const double mass = p.fabric->areal_density * p.vertex_area[v];
+      model.mass[at] += mass * f.mass;
+      if (f.mass != 1) range.mass += mass * (f.mass - 1);
+      model.thickness[at] = std::max(model.thickness[at], p.fabric->thickness * f.thickness);
+      model.friction[at] += p.fabric->friction * f.friction;
       ++shared[at];
     }
     std::size_t folded = 0;
@@ -167,22 +218,21 @@ bool add_particles(const design::Garment& garment, const std::vector<MeshedPanel
 }
 
 void add_elements(const design::Garment& garment, const std::vector<MeshedPanel>& panels,
-                  model::Model& model) {
-  for (const design::Fabric& fabric : garment.fabrics)
-    for (const design::Tensile& tensile : fabric.tensile) model.laws.push_back(make_tensile_law(tensile));
+                  const RegionFields& regions, model::Model& model) {
+  Laws laws(garment, model);
   for (std::size_t i = 0; i < panels.size(); ++i) {
     const MeshedPanel& p = panels[i];
-    auto panel_index = static_cast<Index>(i);
-    auto warp_law = static_cast<Index>(2 * p.panel->fabric);
+    const PanelElements e{p, static_cast<Index>(i), static_cast<Index>(2 * p.panel->fabric), regions, laws};
     const Index* particle = model.vertex_particle.data() + p.first_vertex;
     for (const auto& c : p.mesh.cells) {
       model.cell.push_back({particle[c[0]], particle[c[1]], particle[c[2]], particle[c[3]]});
       model.cell_size.push_back(p.mesh.cell_size);
-      model.cell_shear.push_back(p.fabric->shear_rigidity);
+      const design::RegionFactors f = e.factors((p.mesh.at[c[0]] + p.mesh.at[c[2]]) / 2);
+      model.cell_shear.push_back(p.fabric->shear_rigidity * f.shear);
       model.cell_twist.push_back(0);
     }
-    add_springs(p, panel_index, warp_law, model);
-    add_membranes(p, panel_index, warp_law, model);
+    add_springs(e, model);
+    add_membranes(e, model);
   }
 }
 

@@ -5,6 +5,8 @@
 
 namespace garment::modeller {
 
+class RegionFields;
+
 /// A meshed panel and where it begins in the Model.
 struct MeshedPanel {
   const design::Panel* panel = nullptr;
@@ -27,10 +29,10 @@ std::vector<double> vertex_areas(const PanelMesh& mesh, const Border& border, do
 /// folds a triangle onto a line.
 bool add_particles(const design::Garment& garment, const std::vector<MeshedPanel>& panels,
                    const std::vector<double>& areas, const std::vector<model::Index>& particle,
-                   model::Model& model, Findings& findings);
+                   const RegionFields& regions, model::Model& model, Findings& findings);
 
-/// Springs, trellis cells (without twist) and membranes.
+/// Springs, trellis cells (without twist) and membranes. Factors of regions are those of an element's middle.
 void add_elements(const design::Garment& garment, const std::vector<MeshedPanel>& panels,
-                  model::Model& model);
+                  const RegionFields& regions, model::Model& model);
 
 }  // namespace garment::modeller

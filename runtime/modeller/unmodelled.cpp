@@ -1,5 +1,7 @@
 #include "runtime/modeller/unmodelled.hpp"
 
+#include "runtime/modeller/unmodelled_cloth.hpp"
+
 namespace garment::modeller {
 namespace {
 
@@ -70,6 +72,7 @@ Findings find_unmodelled(const design::Garment& garment, Severity severity) {
   find_in_panels(garment, out);
   find_in_seams(garment, out);
   find_in_attachments(garment, out);
+  find_unmodelled_cloth(garment, [&out](const std::string& what, OriginId origin) { out.say(what, origin); });
   return out.take();
 }
 

@@ -1,0 +1,45 @@
+// Of seams, closures, layers and pressing: what the modeller leaves out.
+#include "runtime/modeller/unmodelled_cloth.hpp"
+
+namespace garment::modeller {
+namespace {
+
+void find_in_finish(const design::Seam& seam, const SayUnmodelled& say) {
+  const design::SeamFinish& f = seam.finish;
+  auto of_seam = [&](const char* word) {
+    say("`" + std::string(word) + "` of seam `" + seam.name + "`", seam.origin);
+  };
+  if (f.turned) of_seam("turned");
+  if (f.lap != 0) of_seam("lapped");
+  if (f.fold_angle) of_seam("fold");
+  if (f.ironed != design::SeamFinish::Ironed::no) of_seam("ironed");
+  if (f.tension != 0) of_seam("tension");
+  if (f.slack != 0) of_seam("slack");
+  if (f.stiffness != 1) of_seam("stiffness");
+}
+
+template <class List>
+void say_all(const std::string& kind, const List& list, const SayUnmodelled& say) {
+  for (const auto& thing : list) say(kind + " `" + thing.name + "`", thing.origin);
+}
+
+}  // namespace
+
+void find_unmodelled_cloth(const design::Garment& garment, const SayUnmodelled& say) {
+  for (const design::Seam& seam : garment.seams) find_in_finish(seam, say);
+  say_all("hem", garment.hems, say);
+  say_all("tack", garment.tacks, say);
+  say_all("button", garment.buttons, say);
+  say_all("zip", garment.zips, say);
+  say_all("layer", garment.layers, say);
+  say_all("pad", garment.pads, say);
+  say_all("iron", garment.presses, say);
+  for (const design::Stacking& s : garment.stackings)
+    say("panel `" + garment.panels[s.panel].name + "` " + (s.over ? "over" : "under") + " `" +
+            garment.panels[s.other].name + "`",
+        s.origin);
+  for (const design::Region& region : garment.regions)
+    if (region.factors.damping != 1) say("`damping` of region `" + region.name + "`", region.origin);
+}
+
+}  // namespace garment::modeller
