@@ -18,6 +18,7 @@
 #include "interpreter/language/placements.hpp"
 #include "interpreter/language/recipe.hpp"
 #include "interpreter/language/seams.hpp"
+#include "interpreter/language/support.hpp"
 #include "interpreter/language/unused_names.hpp"
 
 namespace garment::interpreter {
@@ -87,6 +88,7 @@ void run_all(Program& program) {
   check_notch_order(program);
   if (!program.has_error) check_unsewn(program);
   check_bodies(program);
+  if (!program.has_error) check_support(program);
   if (!program.has_error && program.options.warn_unused) check_unused(program);
 }
 

@@ -42,8 +42,10 @@ class IronReader {
  private:
   std::vector<design::EdgePart> line(const BoundClause& clause, const std::string& what) {
     std::vector<design::EdgePart> parts;
-    for (const EdgeSpan& span : eval_edges(program_, clauses_.value(clause), *clause.scope, what).spans)
-      parts.insert(parts.end(), span.parts.begin(), span.parts.end());
+    for (const EdgeSpan& span : eval_edges(program_, clauses_.value(clause), *clause.scope, what).spans) {
+      const EdgeSpan walked = span.backwards ? reversed(span) : span;
+      parts.insert(parts.end(), walked.parts.begin(), walked.parts.end());
+    }
     return parts;
   }
 

@@ -61,9 +61,21 @@ RegionShape leaf(Kind kind) {
   return shape;
 }
 
-/// `nested` joined with `next` by `kind`, flat where it can be.
+/// Two shapes joined by `kind`, flat where it can be, without what holds nowhere or everywhere.
 RegionShape joined(Kind kind, RegionShape first, RegionShape next) {
-  if (first.kind == kind && kind != Kind::opposite) {
+  const bool none = first.kind == Kind::nowhere, all = first.kind == Kind::everywhere;
+  const bool next_none = next.kind == Kind::nowhere, next_all = next.kind == Kind::everywhere;
+  if (kind == Kind::all_of) {
+    if (none || next_all) return first;
+    if (next_none || all) return next;
+  } else if (kind == Kind::any_of) {
+    if (all || next_none) return first;
+    if (next_all || none) return next;
+  } else {
+    if (none || next_none) return first;
+    if (next_all) return leaf(Kind::nowhere);
+  }
+  if (first.kind == kind) {
     first.children.push_back(std::move(next));
     return first;
   }
@@ -71,6 +83,14 @@ RegionShape joined(Kind kind, RegionShape first, RegionShape next) {
   shape.children.push_back(std::move(first));
   shape.children.push_back(std::move(next));
   return shape;
+}
+
+RegionShape opposite(RegionShape shape) {
+  if (shape.kind == Kind::nowhere) return leaf(Kind::everywhere);
+  if (shape.kind == Kind::everywhere) return leaf(Kind::nowhere);
+  RegionShape result = leaf(Kind::opposite);
+  result.children.push_back(std::move(shape));
+  return result;
 }
 
 class ShapeReader {
@@ -176,11 +196,7 @@ class ShapeReader {
       fail(program_,
            Message("G1101", "a shape is missing after `" + text_of(last) + "`", last.span).help(kShapes));
     }
-    if (take("not")) {
-      RegionShape shape = leaf(Kind::opposite);
-      shape.children.push_back(read_one());
-      return shape;
-    }
+    if (take("not")) return opposite(read_one());
     const Token& token = tokens_[at_++];
     if (token.expr != nullptr) return read_value(*token.expr);
     if (token.word == "within") return read_within();
@@ -219,11 +235,7 @@ class ShapeReader {
       RegionShape first = read_value(expr.children[0]);
       return joined(kind, std::move(first), read_value(expr.children[1]));
     }
-    if (expr.kind == ExprKind::unary && expr.text == "not") {
-      RegionShape shape = leaf(Kind::opposite);
-      shape.children.push_back(read_value(expr.children[0]));
-      return shape;
-    }
+    if (expr.kind == ExprKind::unary && expr.text == "not") return opposite(read_value(expr.children[0]));
     if (expr.kind == ExprKind::call && expr.children[0].kind == ExprKind::name) {
       const std::string& name = expr.children[0].text;
       const auto arguments = expr.children.size() - 1;
@@ -286,8 +298,11 @@ class ShapeReader {
   /// Parts of edges of this panel; empty where they are of another panel of the region.
   std::vector<design::EdgePart> lines(const Expr& expr, const EdgeValue& edge, RegionShape& shape) {
     std::vector<design::EdgePart> parts;
-    for (const EdgeSpan& span : edge.spans)
-      if (is_here(span.panel, expr.span)) parts.insert(parts.end(), span.parts.begin(), span.parts.end());
+    for (const EdgeSpan& span : edge.spans) {
+      if (!is_here(span.panel, expr.span)) continue;
+      const EdgeSpan walked = span.backwards ? reversed(span) : span;
+      parts.insert(parts.end(), walked.parts.begin(), walked.parts.end());
+    }
     if (is_bare(expr)) shape.drawn_side = drawn_side();
     return parts;
   }

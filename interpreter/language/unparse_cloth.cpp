@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "interpreter/language/unparse_region.hpp"
@@ -97,44 +98,27 @@ class ClothWriter {
       const auto p = static_cast<std::size_t>(part.panel);
       panels += (panels.empty() ? "" : ", ") + names_.panels[p];
       std::string own = region_shape(garment_, names_, p, part.shape);
-      if (r.parts.size() > 1) own = fmt::format("({})", own);
-      shape += (shape.empty() ? "" : " or ") + own;
-    }
-    // One shape holds for all panels of a statement: panels whose shapes are told apart by their edges only
-    // may share it.
-    if (r.parts.size() == 1 || all_by_edges(r)) {
-      line("region {} in {}: {}", name, panels, shape);
-    } else {
-      write_parts(r, name);
-    }
-    write_factors(name, r.factors);
-  }
-
-  /// True where no leaf speaks of plain coordinates, which would hold on the other panels too.
-  static bool by_edges(const design::RegionShape& shape) {
-    using Kind = design::RegionShape::Kind;
-    if (shape.kind == Kind::opposite || shape.kind == Kind::minus) return false;
-    for (const design::RegionShape& child : shape.children)
-      if (!by_edges(child)) return false;
-    return !shape.children.empty() || (!shape.parts.empty() && shape.drawn_side == 0);
-  }
-  static bool all_by_edges(const design::Region& r) {
-    for (const design::RegionPart& part : r.parts)
-      if (!by_edges(part.shape)) return false;
-    return true;
-  }
-
-  /// One region for each panel, and the whole as their union.
-  void write_parts(const design::Region& r, const std::string& name) {
-    std::string panels, shape;
-    for (const design::RegionPart& part : r.parts) {
-      const auto p = static_cast<std::size_t>(part.panel);
-      const std::string own = fresh(name + '_' + names_.panels[p], "region");
-      line("region {} in {}: {}", own, names_.panels[p], region_shape(garment_, names_, p, part.shape));
-      panels += (panels.empty() ? "" : ", ") + names_.panels[p];
+      if (r.parts.size() > 1) own = fmt::format("({})", bound(part.shape) ? own : bind(p, own));
       shape += (shape.empty() ? "" : " or ") + own;
     }
     line("region {} in {}: {}", name, panels, shape);
+    write_factors(name, r.factors);
+  }
+
+  /// True where the shape speaks of an edge of its panel throughout: it holds on no other panel.
+  static bool bound(const design::RegionShape& shape) {
+    using Kind = design::RegionShape::Kind;
+    const auto& children = shape.children;
+    if (shape.kind == Kind::all_of) return std::any_of(children.begin(), children.end(), bound);
+    if (shape.kind == Kind::any_of) return std::all_of(children.begin(), children.end(), bound);
+    if (shape.kind == Kind::minus) return bound(children[0]);
+    return !shape.parts.empty();
+  }
+
+  /// One shape holds for all panels of a statement; this keeps it to one of them.
+  std::string bind(std::size_t panel, const std::string& shape) const {
+    return fmt::format("within(5000 cm, {}.{}) and ({})", names_.panels[panel], names_.edges[panel][0],
+                       shape);
   }
 
   void write_factors(const std::string& name, const design::RegionFactors& f) {

@@ -149,9 +149,11 @@ bool RegionTest::leaf_contains(const Point2& p) const {
 bool RegionTest::contains(const Point2& p) const {
   switch (kind_) {
     case Kind::all_of:
-      return std::all_of(children_.begin(), children_.end(), [&](const RegionTest& c) { return c.contains(p); });
+      return std::all_of(children_.begin(), children_.end(),
+                         [&](const RegionTest& c) { return c.contains(p); });
     case Kind::any_of:
-      return std::any_of(children_.begin(), children_.end(), [&](const RegionTest& c) { return c.contains(p); });
+      return std::any_of(children_.begin(), children_.end(),
+                         [&](const RegionTest& c) { return c.contains(p); });
     case Kind::minus:
       for (std::size_t k = 1; k < children_.size(); ++k)
         if (children_[k].contains(p)) return false;

@@ -35,7 +35,7 @@ std::vector<Stop> stops_of(const Side& side, const std::vector<BorderPanel>& pan
       std::reverse(inside.begin(), inside.end());
     }
     for (Stop& stop : inside) {
-      stop.fraction = (s.begin + std::abs(stop.t - s.t0)) / side.length;
+      stop.fraction = (s.begin + std::abs(stop.t - s.t0) / s.fullness) / side.length;
       stops.push_back(stop);
     }
   }
@@ -89,7 +89,7 @@ bool add_break(const Side& side, double fraction, std::vector<BorderPanel>& pane
   std::size_t k = 0;
   while (k + 1 < side.segments.size() && along >= side.segments[k + 1].begin) ++k;
   const SideSegment& s = side.segments[k];
-  double ahead = std::clamp(along - s.begin, 0.0, s.length());
+  double ahead = std::clamp((along - s.begin) * s.fullness, 0.0, s.length());
   double t = s.t0 < s.t1 ? s.t0 + ahead : s.t0 - ahead;
   std::vector<double>& breaks = panels[s.panel].outline.pieces[s.piece].breaks;
   auto next = std::lower_bound(breaks.begin(), breaks.end(), t);

@@ -17,21 +17,23 @@ struct BorderPanel {
   Outline outline;
 };
 
-/// Part of one piece, walked from t0 to t1 (t0 > t1 walks it backwards). `begin` is the sewn length before
-/// it.
+/// Part of one piece, walked from t0 to t1 (t0 > t1 walks it backwards). `begin` is the seam's length before
+/// it: sewn length divided by fullness.
 struct SideSegment {
   int panel = -1, piece = -1;
   double t0 = 0, t1 = 0;
   double begin = 0;
+  double fullness = 1;  ///< how many times longer than the seam it is sewn into
   double length() const { return t0 < t1 ? t1 - t0 : t0 - t1; }
+  double taken() const { return length() / fullness; }
 };
 
 struct Side {
   std::vector<SideSegment> segments;
-  double length = 0;  ///< sewn length, m
+  double length = 0;  ///< of the seam: sewn lengths, each divided by its fullness, m
 };
 
-/// Borders that carry particles at the same fractions of sewn length.
+/// Borders that carry particles at the same fractions of the seam.
 struct Matching {
   std::string name;
   OriginId origin;

@@ -45,7 +45,7 @@ std::vector<SideSegment> resolve(const design::EdgePart& part, std::vector<Borde
     double snapped = break_at(piece, t_b, kSnap * panel.h);
     if (snapped == t_a) snapped = break_at(piece, t_b, 0);  // a part shorter than the snapping distance stays
     if (snapped == t_a) continue;
-    SideSegment s{part.panel, static_cast<int>(k), t_a, snapped, 0};
+    SideSegment s{part.panel, static_cast<int>(k), t_a, snapped, 0, 1};
     if (part.from > part.to) std::swap(s.t0, s.t1);
     segments.push_back(s);
   }
@@ -60,7 +60,7 @@ void finish(Side& side) {
   side.length = 0;
   for (SideSegment& s : side.segments) {
     s.begin = side.length;
-    side.length += s.length();
+    side.length += s.taken();
   }
 }
 
@@ -71,7 +71,8 @@ void collect_seam(const design::Garment& garment, const design::Seam& seam, std:
   matching.origin = seam.origin;
   for (const design::SeamSide& declared : seam.sides) {
     Side side;
-    for (const design::EdgePart& part : declared.parts) {
+    for (std::size_t k = 0; k < declared.parts.size(); ++k) {
+      const design::EdgePart& part = declared.parts[k];
       if (!is_valid(garment, part)) {
         findings.push_back({"G0550",
                             Severity::error,
@@ -80,7 +81,10 @@ void collect_seam(const design::Garment& garment, const design::Seam& seam, std:
                             "name edges of declared panels"});
         return;
       }
-      for (const SideSegment& s : resolve(part, panels)) side.segments.push_back(s);
+      for (SideSegment s : resolve(part, panels)) {
+        s.fullness = declared.fullness_of(k);
+        side.segments.push_back(s);
+      }
     }
     finish(side);
     if (side.length <= kTiny) {
@@ -116,8 +120,8 @@ void collect_darts(std::vector<BorderPanel>& panels, std::vector<Matching>& resu
       matching.origin = dart.origin;
       int panel = static_cast<int>(p);
       matching.sides.resize(2);
-      matching.sides[0].segments = {{panel, static_cast<int>(k), 0, pieces[k].length(), 0}};
-      matching.sides[1].segments = {{panel, static_cast<int>(other), pieces[other].length(), 0, 0}};
+      matching.sides[0].segments = {{panel, static_cast<int>(k), 0, pieces[k].length(), 0, 1}};
+      matching.sides[1].segments = {{panel, static_cast<int>(other), pieces[other].length(), 0, 0, 1}};
       for (Side& side : matching.sides) finish(side);
       result.push_back(std::move(matching));
     }
@@ -136,9 +140,9 @@ void collect_halves(std::vector<BorderPanel>& panels, std::vector<Matching>& res
     int panel = static_cast<int>(p);
     for (std::size_t k = 0; k < outline.n_half; ++k) {
       std::size_t other = outline.pieces.size() - 1 - k;
-      matching.sides[0].segments.push_back({panel, static_cast<int>(k), 0, outline.pieces[k].length(), 0});
+      matching.sides[0].segments.push_back({panel, static_cast<int>(k), 0, outline.pieces[k].length(), 0, 1});
       matching.sides[1].segments.push_back(
-          {panel, static_cast<int>(other), outline.pieces[other].length(), 0, 0});
+          {panel, static_cast<int>(other), outline.pieces[other].length(), 0, 0, 1});
     }
     for (Side& side : matching.sides) finish(side);
     result.push_back(std::move(matching));

@@ -77,7 +77,8 @@ std::vector<Index> sew(const std::vector<Matching>& matchings, const Matched& ma
   }
   for (std::size_t m = 0; m < matchings.size(); ++m) {
     if (!matchings[m].report) continue;
-    model::SeamChain chain{matchings[m].name, matchings[m].origin, {}, matchings[m].sides[0].length};
+    model::SeamChain chain{matchings[m].name, matchings[m].origin, {}, 0};
+    for (const SideSegment& segment : matchings[m].sides[0].segments) chain.length += segment.length();
     for (Index v : chains[m]) chain.particles.push_back(particle[v]);
     model.seams.push_back(std::move(chain));
   }
