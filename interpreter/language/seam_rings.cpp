@@ -106,7 +106,7 @@ void settle_rings(Program& program, SeamCorners& corners, SeamInfo& info) {
   for (const SeamStart& start : info.starts) {
     bool met = false;
     for (std::size_t k = 0; k < sides.size(); ++k)
-      if (sides[k].closed && begin_at(program, corners, sides[k], start)) settled[k] = 1, met = true;
+      if (sides[k].closed && !settled[k] && begin_at(program, corners, sides[k], start)) settled[k] = 1, met = true;
     if (met) continue;
     const bool any = std::any_of(sides.begin(), sides.end(), [](const SeamSide& s) { return s.closed; });
     Message message("G0512",

@@ -105,8 +105,7 @@ void report_twist(Program& program, const Contact& contact) {
   report(program,
          Message("G0510",
                  "seam `" + info.seam.name + "` twists the garment: it turns the face of " + where +
-                     " to the back, where " + (one == two ? "the panel's own cloth" : "other seams") +
-                     " keep it out",
+                     " to the back, where " + (one == two ? "the panel's own cloth keeps it out" : "other seams keep it out"),
                  info.spans[1], run_text(program, info.seam.sides[1].parts))
              .also(info.spans[0], "meets it " + run_text(program, info.seam.sides[0].parts))
              .help("join the other ends: leave out `reversed`, or reverse every seam between these panels"));

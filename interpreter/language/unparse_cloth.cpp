@@ -117,7 +117,7 @@ class ClothWriter {
 
   /// One shape holds for all panels of a statement; this keeps it to one of them.
   std::string bind(std::size_t panel, const std::string& shape) const {
-    return fmt::format("within(5000 cm, {}.{}) and ({})", names_.panels[panel], names_.edges[panel][0],
+    return fmt::format("(within(5000 cm, {}.{})) and ({})", names_.panels[panel], names_.edges[panel][0],
                        shape);
   }
 

@@ -93,7 +93,7 @@ class ShapeWriter {
   std::string halves(const RegionShape& leaf) const {
     const bool same = leaf.kind == Kind::above || leaf.kind == Kind::below || leaf.kind == Kind::everywhere;
     if (leaf.drawn_side == 0 || !panel_.fold_x || same) return plain(leaf);
-    return fmt::format("({} and {}) or ({} and {})", plain(leaf),
+    return fmt::format("(({}) and ({})) or (({}) and ({}))", plain(leaf),
                        plain(half_plane(*panel_.fold_x, leaf.drawn_side)), plain(mirrored(panel_, leaf)),
                        plain(half_plane(*panel_.fold_x, -leaf.drawn_side)));
   }

@@ -224,3 +224,23 @@ panel lining of fabrics.satin like two under two { }
   CHECK(back.stackings.size() == 1);
   CHECK(back.layers[0].order == g.layers[0].order);
 }
+
+TEST_CASE("nothing holds up what is neither attached nor lies on anything") {
+  const Trial falls(kPieces + "drape until rest\n");
+  int warned = 0;
+  for (const auto& d : falls.result.diagnostics) warned += d.code == "G0515";
+  CHECK(warned == 3);
+  const Trial held(kPieces + "pin p on one at one.top.start\npin q on two at two.top.start\npin r on half at (0, 40 cm)\n" +
+                   "drape until rest\n");
+  for (const auto& d : held.result.diagnostics) CHECK(d.code != "G0515");
+}
+
+TEST_CASE("a picture on cloth is carried, and said not to be drawn") {
+  const Trial trial("use fabrics\nfabric shirt = fabrics.poplin pattern \"check.png\" repeat 5 cm\n", {},
+                    {{"check.png", "PNG"}});
+  CHECK(trial.result.ok());
+  REQUIRE(trial.result.diagnostics.size() == 1);
+  CHECK(trial.result.diagnostics[0].code == "G0460");
+  CHECK(trial.result.garment.fabrics[0].pattern == "check.png");
+  CHECK(trial.result.garment.fabrics[0].pattern_repeat == Approx(0.05));
+}

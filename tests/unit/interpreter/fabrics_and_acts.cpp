@@ -109,7 +109,8 @@ TEST_CASE("what a fabric may not be") {
   refuses(head + "{ color = «\"red\"» }\n", "G0309", "#rrggbb");
   refuses(head + "«3 cm»\n", "G0306");
   refuses(head + "{ EM = 5%, WT = «100 gf*cm/cm^2» }\n", "G0309", "LT");
-  const Trial odd(head + "{ EM = 5%, LT = 0.8, WT = 5 gf*cm/cm^2 }\n");
+  const Trial odd(head + "{ W = 200 g/m^2, T = 0.5 mm, G = 40 N/m, B = 1e-5 N*m, EM = 5%, LT = 0.8, WT = 5 "
+                         "gf*cm/cm^2 }\n");
   CHECK(odd.result.ok());
   REQUIRE(odd.result.diagnostics.size() == 1);
   CHECK(odd.result.diagnostics[0].code == "G0329");

@@ -161,8 +161,17 @@ TEST_CASE("what a seam may not be") {
   refuses(kTwo + "seam j: a.«tpo» to b.top\n", "G0311", "did you mean `top`?");
   refuses(kTwo + "seam j: a.top ease «60%» to b.top\n", "G0309", "0% .. 50%");
   refuses(kTwo + "seam j: a.top ease 2% «gather 2» to b.top\n", "G0314");
-  refuses(kTwo + "seam j: a.top to b.top «lapped 1 cm»\n", "G0315");
-  refuses(kTwo + "seam j: a.top ease 6% «(1 cm, 2 cm)» to b.top\n", "G0315");
+  refuses(kTwo + "seam j: a.top ease 6% «(1 cm, 2 cm)» to b.top\n", "G0313", "[notch_f .. notch_b]");
+  refuses(kTwo + "seam j: a.top to «a.top»\n", "G0509", "200 mm of `a.top` to itself");
+  refuses(kTwo + "seam i: a.right_side to b.left_side\nseam j: b.right_side to «a.left_side» reversed\n", "G0510",
+          "leave out `reversed`");
+  refuses(kTwo + "panel disc of fabrics.poplin {\n outline circle((0, 0), 9 cm)\n}\npanel cap of fabrics.poplin like "
+                 "disc { }\nseam j: «disc.rim» to cap.rim\n",
+          "G0511", "start at PANEL.NOTCH");
+  refuses(kTwo + "seam j: a.top to b.top start at «a.bottom.middle»\n", "G0512");
+  refuses(kTwo + "seam j: a.top to b.top lapped 1 cm «turned»\n", "G0513");
+  refuses(kTwo + "seam j: a.top to b.top ironed toward «a.bottom»\n", "G0514", "its own sides");
+  refuses(kTwo + "seam j: a.top ease 2% [start .. 10 cm] ease 4% «[5 cm .. end]» to b.top\n", "G0516");
   refuses(kTwo + "seam j: a.top ease «2 cm» to b.top\n", "G0305");
   refuses(kTwo + "seam j: a.top to b.top\nseam «j»: a.bottom to b.bottom\n", "G0302");
 }
