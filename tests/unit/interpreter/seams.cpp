@@ -170,7 +170,7 @@ TEST_CASE("what a seam may not be") {
           "G0511", "start at PANEL.NOTCH");
   refuses(kTwo + "seam j: a.top to b.top start at «a.bottom.middle»\n", "G0512");
   refuses(kTwo + "seam j: a.top to b.top lapped 1 cm «turned»\n", "G0513");
-  refuses(kTwo + "seam j: a.top to b.top ironed toward «a.bottom»\n", "G0514", "its own sides");
+  refuses(kTwo + "seam j: a.top to b.top ironed toward «a.bottom»\n", "G0514", "own sides");
   refuses(kTwo + "seam j: a.top ease 2% [start .. 10 cm] ease 4% «[5 cm .. end]» to b.top\n", "G0516");
   refuses(kTwo + "seam j: a.top ease «2 cm» to b.top\n", "G0305");
   refuses(kTwo + "seam j: a.top to b.top\nseam «j»: a.bottom to b.bottom\n", "G0302");
