@@ -106,7 +106,9 @@ class ButtonReader {
     awaiting_ = false;
     if (clause.values.size() == 2 && !on_) return name_panel(clause.values[1], false);
     if (clause.values.size() > 1)
-      fail(program_, Message("G0313", "`at` takes one point, here is more", clause.values[1].span));
+      fail(program_, Message("G0313", "`at` takes one point, here is more", clause.values[1].span)
+                         .help(did_you_mean(clause.values[1].text,
+                                            {"on", "at", "through", "mass", "diameter", "shank", "kind"})));
   }
 
   void assign(Override& change) {

@@ -83,9 +83,17 @@ const Expr& Clauses::value(const BoundClause& bound) const {
                              : near.empty()      ? "to multiply, write the sign: `2 * width`"
                                                  : near));
   }
-  fail(program_, Message("G0313", "`" + clause.word.text + "` takes one value, here is more", second.span)
-                     .help(clause.word.text == "=" ? "put an operator between the two, or begin a new line"
-                                                   : "`" + clause.word.text + ' ' + takes + "`"));
+  std::string hint;  // a clause word with a slip in it reads as one more value
+  if (record_ != nullptr && second.kind == ExprKind::name) {
+    std::vector<std::string> words;
+    for (const ClauseRecord& known : record_->clauses) words.emplace_back(known.word);
+    hint = did_you_mean(second.text, words);
+  }
+  if (hint.empty())
+    hint = clause.word.text == "=" ? "put an operator between the two, or begin a new line"
+                                   : "`" + clause.word.text + ' ' + takes + "`";
+  fail(program_,
+       Message("G0313", "`" + clause.word.text + "` takes one value, here is more", second.span).help(hint));
 }
 
 double checked_quantity(Program& program, const ClauseRecord& record, const Quantity& q, Span span) {

@@ -25,7 +25,8 @@ std::vector<design::EdgePart> parts_of(const EdgeValue& edge) {
 void refuse_operands(Program& program, const Statement& statement, const char* first) {
   if (!statement.operands.empty())
     fail(program, Message("G0313", "this means nothing before `" + std::string(first) + "`",
-                          statement.operands[0].span));
+                          statement.operands[0].span)
+                      .help("write `" + std::string(find_construct(statement.keyword.text)->form) + "`"));
 }
 
 }  // namespace

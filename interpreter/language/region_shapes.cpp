@@ -253,6 +253,14 @@ class ShapeReader {
         return need(1, "left_of(LINE)"), make_side(name.substr(0, name.find('_')), expr.children[1]);
       if (name == "polygon") return make_polygon(expr);
     }
+    if (expr.kind == ExprKind::name && find_local(scope_, expr.text) == nullptr &&
+        find_declaration(scope_, expr.text) == nullptr) {
+      const std::string hint = did_you_mean(expr.text, {"within", "above", "below", "left", "right", "circle",
+                                                        "polygon", "not", "left_of", "right_of"});
+      if (!hint.empty())
+        fail(program_,
+             Message("G0301", "there is no shape or region `" + expr.text + "`", expr.span).help(hint));
+    }
     return take_region(expr);
   }
 

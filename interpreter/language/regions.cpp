@@ -224,9 +224,12 @@ void run_starch(Program& program, const Item& item) {
   const Statement& statement = *item.statement;
   Scope& scope = *item.scope;
   Clauses clauses(program, statement, scope);
-  if (statement.operands.size() != 1)
-    fail(program, Message("G0312", "`starch` takes one region", statement.keyword.span)
-                      .help("write `starch REGION factor 3`"));
+  const char* const form = "write `starch REGION factor 3`";
+  if (statement.operands.empty())
+    fail(program, Message("G0312", "`starch` takes one region", statement.keyword.span).help(form));
+  if (statement.operands.size() > 1)
+    fail(program,
+         Message("G0313", "this means nothing before `factor`", statement.operands[1].span).help(form));
   design::Starch starch;
   starch.origin = program.origin(statement.span);
   starch.region = eval_region(program, statement.operands[0], scope, "`starch`");

@@ -86,13 +86,15 @@ class SeamMaker {
   }
 
   void take_side(const Clause& clause) {
-    if (clause.values.size() != 1) {
-      const Span span = clause.values.empty() ? clause.word.span : clause.values[1].span;
-      fail(program_,
-           Message(clause.values.empty() ? "G0312" : "G0313",
-                   clause.values.empty() ? "a side of the seam is missing" : "a side is one edge or chain",
-                   span)
-               .help("chains are written `a + b`"));
+    if (clause.values.empty())
+      fail(program_, Message("G0312", "a side of the seam is missing", clause.word.span)
+                         .help("chains are written `a + b`"));
+    if (clause.values.size() > 1) {
+      std::vector<std::string> words;
+      for (const ClauseRecord& known : find_construct("seam")->clauses) words.emplace_back(known.word);
+      const std::string hint = did_you_mean(clause.values[1].text, words);
+      fail(program_, Message("G0313", "a side is one edge or chain", clause.values[1].span)
+                         .help(hint.empty() ? "chains are written `a + b`" : hint));
     }
     SeamSideDraft side;
     side.expr = &clause.values[0];
