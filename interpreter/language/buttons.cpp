@@ -95,7 +95,7 @@ class ButtonReader {
       fail(program_, Message("G0313", "`at` follows `on PANEL` or `through PANEL`", clause.word.span));
     if (clause.values.empty()) fail(program_, Message("G0312", "`at` needs a point", clause.word.span));
     const Expr& expr = clause.values[0];
-    const Point2 p = eval_panel_point(program_, expr, scope_, panel_, on_ ? "the button" : "its hole");
+    const Point2 p = eval_cloth_point(program_, expr, scope_, panel_, on_ ? "the button" : "its hole");
     if (on_) {
       button_.panel = panel_;
       button_.point = p;
@@ -171,7 +171,7 @@ class ButtonReader {
 
 }  // namespace
 
-Point2 eval_panel_point(Program& program, const Expr& expr, Scope& scope, int panel,
+Point2 eval_cloth_point(Program& program, const Expr& expr, Scope& scope, int panel,
                         const std::string& what) {
   const PointValue value = eval_point(program, expr, scope, 2, kLength, "`at`");
   const design::Panel& cloth = program.panels[static_cast<std::size_t>(panel)].panel;

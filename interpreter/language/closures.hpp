@@ -17,7 +17,7 @@ Value evaluate_tack(Program& program, Declaration& declaration);
 void check_buttons(Program& program);
 
 /// A point of `panel`, inside its outline. Reports and throws Stop. `what` names it ("the button").
-design::Point2 eval_panel_point(Program& program, const Expr& expr, Scope& scope, int panel,
+design::Point2 eval_cloth_point(Program& program, const Expr& expr, Scope& scope, int panel,
                                 const std::string& what);
 
 }  // namespace garment::interpreter

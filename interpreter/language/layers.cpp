@@ -199,7 +199,7 @@ Value evaluate_pad(Program& program, Declaration& declaration) {
              .help("write `" + std::string(find_construct("pad")->form) + "`"));
   if (in != nullptr) pad.region = eval_region_on(program, clauses.value(*in), *in->scope, pad.panel, "`in`");
   if (at != nullptr) {
-    pad.centre = eval_panel_point(program, clauses.value(*at), *at->scope, pad.panel, "the pad");
+    pad.centre = eval_cloth_point(program, clauses.value(*at), *at->scope, pad.panel, "the pad");
     const auto radius = clauses.quantity("radius");
     if (!radius) clauses.need("radius");
     pad.radius = *radius;
