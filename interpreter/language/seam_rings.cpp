@@ -83,6 +83,9 @@ bool is_round(const Program& program, const SeamSide& side) {
   if (first.from > kNear && first.from < curve.length() - kNear)
     return false;                     // a part was named: its start is meant
   constexpr double kSmooth = 0.9998;  // cosine of about 1 deg
+  double length = 0;
+  for (const EdgePart& part : side.parts) length += std::fabs(part.to - part.from);
+  if (length < 10 * kNear) return false;  // a crumb of an edge, whose ends are one corner
   for (std::size_t k = 0; k < side.parts.size(); ++k) {
     const EdgePart &a = side.parts[k], &b = side.parts[(k + 1) % side.parts.size()];
     if (a.panel != b.panel || a.on != b.on) return false;
