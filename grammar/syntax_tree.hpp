@@ -10,6 +10,7 @@
 
 #include "grammar/diagnostic.hpp"
 #include "grammar/source.hpp"
+#include "runtime/base/limits.hpp"
 
 namespace garment::grammar {
 
@@ -111,8 +112,8 @@ struct Vocabulary {
 };
 
 struct ParseLimits {
-  std::size_t max_bytes = 4u << 20;
-  int max_depth = 200;
+  std::size_t max_bytes = kMaxSourceBytes;
+  int max_depth = kMaxTreeDepth;
 };
 
 struct ParseResult {

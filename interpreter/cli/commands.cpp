@@ -14,11 +14,9 @@
 namespace garment::cli {
 namespace {
 
-constexpr std::uint64_t kMaxScriptBytes = 4u << 20;
-
 /// Reads a script into `sources`; prints why not.
 bool read_script(const std::string& file, Host& host, grammar::Sources& sources, grammar::SourceId& id, Terminal& terminal) {
-  HostResult<std::string> text = host.read_file(file, kMaxScriptBytes);
+  HostResult<std::string> text = host.read_file(file, kMaxSourceBytes);
   if (!text) {
     show({plain_error("G0901", fmt::format("cannot read `{}`: {}", file, text.error.message), "check the path")}, sources,
          terminal);

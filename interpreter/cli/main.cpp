@@ -61,7 +61,10 @@ void add_project(CLI::App* command, ProjectOptions& p) {
   command->add_option("--body", p.body, "OBJ file of the body that a specification is worn by");
   command->add_option("--library", p.library_dirs, "folder where `use NAME` looks first; may be given again")
       ->allow_extra_args(false);
-  command->add_flag("--any-path", p.any_path, "let the script read files outside its own folder");
+  command->add_option("--allow-read", p.allow_read, "let the script read below this folder too (may be repeated)")
+      ->allow_extra_args(false);
+  command->add_option("--allow-write", p.allow_write, "let `save` write below this folder too (may be repeated)")
+      ->allow_extra_args(false);
 }
 
 }  // namespace

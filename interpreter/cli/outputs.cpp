@@ -37,7 +37,7 @@ void write_pictures(const Project& project, const model::Model& model, const mod
 
 bool OutputFolder::write(const std::string& name, const std::string& bytes) {
   if (bytes.empty()) return true;  // nothing to show (a picture without cloth)
-  HostResult<bool> written = host_.write_file((std::filesystem::path(folder_) / name).string(), bytes);
+  HostResult<bool> written = host_.write_below(granted_, (std::filesystem::path(folder_) / name).string(), bytes);
   if (!written) {
     if (!failed_)
       show({plain_error("G0902", fmt::format("cannot write `{}/{}`: {}", folder_, name, written.error.message),

@@ -16,10 +16,13 @@ struct OutputOptions {
   bool ply = false;
 };
 
-/// Writes files below one folder and remembers them for the report.
+/// Writes files below one folder, or others that were granted, and remembers them for the report.
 class OutputFolder {
  public:
-  OutputFolder(std::string folder, Host& host, Terminal& terminal) : folder_(std::move(folder)), host_(host), terminal_(terminal) {}
+  OutputFolder(std::string folder, Host& host, Terminal& terminal, std::vector<std::string> granted = {})
+      : folder_(std::move(folder)), granted_(std::move(granted)), host_(host), terminal_(terminal) {
+    granted_.insert(granted_.begin(), folder_);
+  }
   /// False when a file could not be written; says so once, with the reason.
   bool write(const std::string& name, const std::string& bytes);
   bool failed() const { return failed_; }
@@ -28,6 +31,7 @@ class OutputFolder {
 
  private:
   std::string folder_;
+  std::vector<std::string> granted_;  ///< folders below which files may lie, `folder_` first
   Host& host_;
   Terminal& terminal_;
   bool failed_ = false;

@@ -11,7 +11,6 @@
 namespace garment::cli {
 namespace {
 
-constexpr std::uint64_t kMaxScriptBytes = 4u << 20;
 constexpr std::uint64_t kMaxPatternBytes = 16u << 20;
 
 bool parse_params(const std::vector<std::string>& given, std::map<std::string, std::string>& params, Terminal& terminal) {
@@ -113,7 +112,7 @@ void show(const grammar::Diagnostics& diagnostics, const grammar::Sources& sourc
 ExitCode load(Project& project, const ProjectOptions& options, Host& host, Terminal& terminal) {
   project.name = stem_of(options.file);
   bool pattern = ends_with(options.file, ".json");
-  HostResult<std::string> text = host.read_file(options.file, pattern ? kMaxPatternBytes : kMaxScriptBytes);
+  HostResult<std::string> text = host.read_file(options.file, pattern ? kMaxPatternBytes : kMaxSourceBytes);
   if (!text) {
     show({plain_error("G0901", fmt::format("cannot read `{}`: {}", options.file, text.error.message),
                       "check the path; scripts end in .garment, specifications in .json")},
@@ -126,7 +125,8 @@ ExitCode load(Project& project, const ProjectOptions& options, Host& host, Termi
   interpret_options.stdlib_dir = options.stdlib_dir;
   interpret_options.library_dirs = options.library_dirs;
   interpret_options.script_dir = folder_of(options.file);
-  interpret_options.any_path = options.any_path;
+  interpret_options.allow_read = options.allow_read;
+  interpret_options.allow_write = options.allow_write;
   interpret_options.build_bodies = options.build_bodies;
   if (!parse_params(options.params, interpret_options.params, terminal)) return kUsage;
   project.source = project.sources.add(options.file, std::move(*text.value));

@@ -19,8 +19,9 @@ struct ProjectOptions {
   std::string body;                    ///< OBJ file that a specification is worn by
   std::string stdlib_dir;
   std::vector<std::string> library_dirs;  ///< where `use NAME` looks first
-  bool any_path = false;               ///< files may lie outside the script's folder
   bool build_bodies = true;            ///< see InterpretOptions
+  std::vector<std::string> allow_read;   ///< further folders below which a script may read
+  std::vector<std::string> allow_write;  ///< further folders below which it may write
 };
 
 struct Project {

@@ -39,6 +39,8 @@ void fill_sources(results::Report& report, const Project& project) {
     std::string name = s.name.substr(s.name.find_last_of('/') + 1);
     (i == project.source ? report.sources : report.library).push_back({name, sha256(s.text)});
   }
+  for (const interpreter::SolvedValue& s : project.result.solved)
+    report.solves.push_back({s.name, s.value, s.residual_value, s.text, s.residual, s.bound});
   for (const interpreter::Parameter& p : project.result.parameters) report.parameters.push_back({p.name, p.value, p.given});
 }
 
@@ -160,7 +162,7 @@ ExitCode run_all(const RunOptions& options, results::Report& report, bool& repor
   if (!model) return kDiagnostics;
   watch.lap("model");
 
-  OutputFolder out(options.out.empty() ? project.name : options.out, host, terminal);
+  OutputFolder out(options.out.empty() ? project.name : options.out, host, terminal, options.project.allow_write);
   Run under_way{options, host, terminal, project, *model, out, report, {}, false, kOk};
   under_way.state.position = model->start;
   under_way.state.velocity.assign(model->n_particles(), Eigen::Vector3d::Zero());

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "grammar/text.hpp"
 #include "runtime/base/number.hpp"
 
 namespace garment::cli {
@@ -48,7 +49,7 @@ void Terminal::document(const std::string& json) {
 void Terminal::note(std::string_view line) {
   if (options_.quiet) return;
   end_progress();
-  fmt::print(stderr, "{}\n", line);
+  fmt::print(stderr, "{}\n", grammar::escape_controls(line));
 }
 
 void Terminal::error(std::string_view text) {

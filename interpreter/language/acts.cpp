@@ -203,15 +203,7 @@ void run_save(Program& program, const Item& item) {
   SaveAct act;
   for (const Expr& operand : statement.operands) {
     const std::string path = eval_text(program, operand, scope, "`save`");
-    const bool any = program.options.any_path;
-    program.options.any_path = false;  // writing outside the output folder is for the command line to grant
-    try {
-      act.paths.push_back(checked_path(program, path, operand.span));
-    } catch (const Stop&) {
-      program.options.any_path = any;
-      throw;
-    }
-    program.options.any_path = any;
+    act.paths.push_back(writable_path(program, path, operand.span));
     const std::size_t slash = path.rfind('/'), dot = path.rfind('.');
     if (dot == std::string::npos || dot + 1 == path.size() || (slash != std::string::npos && dot < slash))
       fail(program,

@@ -71,6 +71,14 @@ Value evaluate_body(Program& program, Declaration& declaration) {
   return Value{BodyValue{declaration.index}};
 }
 
+void forget_body(Program& program, Declaration& declaration) {
+  const std::size_t k = static_cast<std::size_t>(declaration.index);
+  program.garment.bodies[k] = design::Body{};
+  program.garment.bodies[k].name = declaration.name;
+  program.built[k] = nullptr;
+  program.build_failed[k] = false;
+}
+
 const body::Body* built_body(Program& program, int index, Span asked_at) {
   const std::size_t k = static_cast<std::size_t>(index);
   if (program.built[k] != nullptr) return program.built[k].get();

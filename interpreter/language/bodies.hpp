@@ -10,6 +10,8 @@ namespace garment::interpreter {
 int reserve_body(Program& program, const Declaration& declaration);
 /// `body NAME = SHAPE at ... friction ...`; fills its place in Garment::bodies.
 Value evaluate_body(Program& program, Declaration& declaration);
+/// The body back to what `reserve_body` made.
+void forget_body(Program& program, Declaration& declaration);
 
 /// The built body; null where it could not be built (said once).
 const body::Body* built_body(Program& program, int index, Span asked_at);

@@ -1,6 +1,7 @@
 // Calls: declared functions, builtin functions, and `edge.at(...)`, `draped.length(...)`.
 #include <algorithm>
 
+#include "interpreter/language/curve_values.hpp"
 #include "interpreter/language/declarations.hpp"
 #include "interpreter/language/edges.hpp"
 #include "interpreter/language/evaluate.hpp"
@@ -9,8 +10,6 @@
 
 namespace garment::interpreter {
 namespace {
-
-constexpr std::size_t kMaxCalls = 256;
 
 struct CallGuard {
   Program& program;
@@ -54,10 +53,15 @@ struct CallGuard {
   local.module = function.module;
   local.half = scope.half;
   bind_arguments(program, function, expr, scope, local);
-  Value result = eval(program, function.statement->clauses[0].values[0], local);
+  Value result = run_body(program, function, local);
   if (local.half_used)
     for (const Scope* at = &scope; at != nullptr; at = at->parent) at->half_used = true;
   return result;
+}
+
+/// Value of a function whose parameters stand in `local`.
+[[gnu::noinline]] Value run_body(Program& program, const Declaration& function, Scope& local) {
+  return eval(program, function.statement->clauses[0].values[0], local);
 }
 
 [[gnu::noinline]] Value edge_at(Program& program, const Expr& expr, const EdgeValue& edge, Scope& scope) {
@@ -81,7 +85,47 @@ struct CallGuard {
   return Value{PointValue{{p.x(), p.y(), 0}, 2, kLength, span.panel}};
 }
 
+[[gnu::noinline]] Value curve_at(Program& program, const Expr& expr, const geometry::Curve& curve, Scope& scope) {
+  if (expr.children.size() != 2)
+    fail(program, Message("G0307", "`at` takes one position", expr.span).help("as in `curve.at(5 cm)`"));
+  const Value at = eval(program, expr.children[1], scope);
+  const design::Point2 p = curve.point_at(position_along(program, at, curve.length(), expr.children[1].span, "`at`"));
+  return Value{PointValue{{p.x(), p.y(), 0}, 2, kLength, -1}};
+}
+
 }  // namespace
+
+Value call_function(Program& program, const Value& function, const std::vector<Value>& values, const Expr& call,
+                    Span asked_at) {
+  const auto* declared = function.as<FunctionValue>();
+  if (declared == nullptr)
+    fail(program, Message("G0306", kind_of(function) + " where a function is wanted", asked_at)
+                      .help("declare one, as in `fn half(x) = x / 2`, and give its name"));
+  count_step(program, call.span);
+  CallGuard guard(program, call.span);
+  const Declaration& declaration = *declared->declaration;
+  const std::vector<FormalParameter> parameters = parameters_of(program, declaration.statement->operands[0]);
+  std::size_t required = 0;
+  for (const FormalParameter& parameter : parameters) required += parameter.standard == nullptr;
+  if (values.size() > parameters.size() || values.size() < required)
+    fail(program, Message("G0307",
+                          "`" + declaration.name + "` takes " + std::to_string(parameters.size()) +
+                              (parameters.size() == 1 ? " value" : " values") + ", here it is given " +
+                              std::to_string(values.size()),
+                          asked_at)
+                      .also(declaration.statement->operands[0].span, "declared here"));
+  Scope local;
+  local.parent = declaration.scope;
+  local.module = declaration.module;
+  for (std::size_t k = 0; k < parameters.size(); ++k)
+    local.values.emplace(parameters[k].name,
+                         k < values.size()
+                             ? checked_kind(program, parameters[k].name, parameters[k].kind, values[k], asked_at)
+                             : checked_kind(program, parameters[k].name, parameters[k].kind,
+                                            eval(program, *parameters[k].standard, local),
+                                            parameters[k].standard->span));
+  return run_body(program, declaration, local);
+}
 
 void check_function(Program& program, const Declaration& declaration) {
   const Statement& statement = *declaration.statement;
@@ -95,6 +139,20 @@ void check_function(Program& program, const Declaration& declaration) {
       fail(program, Message("G0303", "the parameter `" + parameter.name + "` hides a unit or builtin",
                             statement.operands[0].span));
 }
+
+namespace {
+
+/// An argument of a builtin; a direction (+x, an angle) becomes a unit vector.
+Value eval_argument(Program& program, const FunctionRecord& record, std::size_t k, const Expr& expr, Scope& scope) {
+  const bool named = k < record.parameters.size();
+  if (!named || std::find(record.directions.begin(), record.directions.end(), record.parameters[k]) ==
+                    record.directions.end())
+    return eval(program, expr, scope);
+  const design::Point2 way = eval_direction(program, expr, scope, "`" + std::string(record.parameters[k]) + "`");
+  return Value{PointValue{{way.x(), way.y(), 0}, 2, kNumber, -1}};
+}
+
+}  // namespace
 
 Value call_builtin(Program& program, const FunctionRecord& record, const Expr& expr, Scope& scope) {
   Call call{program, record, expr, {}, {}};
@@ -135,7 +193,7 @@ Value call_builtin(Program& program, const FunctionRecord& record, const Expr& e
                         .help("write `" + std::string(record.form) + "`"));
     if (call.places[at] != nullptr)
       fail(program, Message("G0314", "`" + names[at] + "` is given twice", child.span));
-    call.arguments[at] = eval(program, child, scope);
+    call.arguments[at] = eval_argument(program, record, at, child, scope);
     call.places[at] = &child;
   }
   for (std::size_t k = 0; k < record.required; ++k)
@@ -163,6 +221,8 @@ Value eval_call(Program& program, const Expr& expr, Scope& scope) {
     const Value base = eval(program, callee.children[0], scope);
     if (const auto* edge = base.as<EdgeValue>(); edge != nullptr && callee.text == "at")
       return edge_at(program, expr, *edge, scope);
+    if (const auto* curve = base.as<CurveValue>(); curve != nullptr && callee.text == "at")
+      return curve_at(program, expr, (*curve)->curve, scope);
     if (base.as<DrapedValue>() != nullptr) {
       if (const FunctionRecord* record = find_function("draped." + callee.text))
         return call_builtin(program, *record, expr, scope);

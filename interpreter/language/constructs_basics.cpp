@@ -4,6 +4,7 @@
 #include "interpreter/language/declarations.hpp"
 #include "interpreter/language/files.hpp"
 #include "interpreter/language/parameters.hpp"
+#include "interpreter/language/solving.hpp"
 
 namespace garment::interpreter::detail {
 namespace {
@@ -33,7 +34,8 @@ std::vector<ConstructRecord> basics_constructs() {
        .example = "param long = 58 cm in 30 cm .. 110 cm \"waist to hem\"",
        .clauses = {{"=", "VALUE", "what it is unless given"},
                    {"in", "RANGE | [CHOICE, ...]", "what is allowed"}},
-       .evaluate = evaluate_param},
+       .evaluate = evaluate_param,
+       .forget = forget_param},
       {.keyword = "let",
        .declares_name = true,
        .form = "let NAME = VALUE",
@@ -50,6 +52,15 @@ std::vector<ConstructRecord> basics_constructs() {
        .clauses = kDefinition,
        .evaluate = evaluate_let,
        .run = run_measure},
+      {.keyword = "solve",
+       .declares_name = true,
+       .form = "solve NAME in LOW .. HIGH so A == B",
+       .doc = "names the value for which two numbers agree; with >= or <= the first from the low end that does",
+       .example = "solve radius in 5 cm .. 40 cm so 2 * pi * radius == length(front.waist)",
+       .clauses = {{"in", "LOW .. HIGH", "the range it is looked for in"},
+                   {"so", "CONDITION", "a comparison of two numbers with ==, >= or <="}},
+       .evaluate = evaluate_solve,
+       .forget = forget_solve},
       {.keyword = "fn",
        .form = "fn NAME(PARAMETER, PARAMETER: KIND = DEFAULT, ...) = VALUE",
        .doc = "a function",

@@ -29,7 +29,6 @@ const Words kActs = {"drape", "expect", "save", "record", "release"};
 
 std::vector<ConstructRecord> later_constructs() {
   return {
-      later("solve", true, "solve NAME in RANGE so CONDITION", "finds a value", {"in", "so"}),
       later("slash", false, "slash PANEL along LINE spread LENGTH", "opens a panel along a line",
             {"along", "spread"}),
       later("move", false, "move EDGE by (DX, DY)", "moves an edge", {"by"}),

@@ -16,7 +16,8 @@ std::vector<ConstructRecord> scene_constructs() {
                    {"at", "(X, Y, Z)", "where it stands", {}, 1, 0, "(0, 0, 0)"},
                    {"friction", "NUMBER", "Coulomb friction with cloth", kNumber, 0, 2, "0.3"}},
        .evaluate = evaluate_body,
-       .reserve = reserve_body},
+       .reserve = reserve_body,
+       .forget = forget_body},
       {.keyword = "place",
        .form = "place PANEL on BODY.PART [with EDGE at LEVEL] | around BODY.PART | at (X, Y, Z) turn (RX, "
                "RY, RZ) | flat at (X, Y, Z)",

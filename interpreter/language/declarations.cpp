@@ -11,15 +11,13 @@
 namespace garment::interpreter {
 namespace {
 
-constexpr std::size_t kMaxExpanded = 100'000;
-
 bool is_control(const Statement& statement) {
   return statement.keyword.text == "for" || statement.keyword.text == "if";
 }
 
 void count_expanded(Program& program, Span span) {
   count_step(program, span);
-  if (++program.expanded <= kMaxExpanded) return;
+  if (++program.expanded <= kMaxStatements) return;
   report(program, Message("G0327", "loops made more than 100000 statements", span).help("shorten the range"));
   throw Exhausted{};
 }
@@ -39,7 +37,7 @@ std::vector<Value> loop_values(Program& program, const Statement& statement, Sco
   if (from != std::floor(from) || std::fabs(from) > 1e9)
     fail(program, Message("G0309", "a loop starts at a whole number, this at " + format_quantity(from, {}),
                           expr.span));
-  if (to - from > static_cast<double>(kMaxExpanded))
+  if (to - from > static_cast<double>(kMaxStatements))
     fail(program,
          Message("G0327",
                  "the loop would run " +

@@ -1,4 +1,6 @@
+#include "interpreter/language/collections.hpp"
 #include "interpreter/language/drawing.hpp"
+#include "interpreter/language/evaluate.hpp"
 #include "interpreter/language/function_table.hpp"
 #include "runtime/base/portable_math.hpp"
 
@@ -7,9 +9,6 @@ namespace {
 
 // Nested evaluations. With every case of eval in a frame of its own a level takes 1 to 2 KB of stack, several
 // times that under the address sanitizer.
-constexpr int kMaxDepth = 1000;
-constexpr std::size_t kMaxText = 1 << 20;
-constexpr std::size_t kMaxList = 1 << 20;
 
 [[noreturn]] [[gnu::noinline]] void fail_depth(Program& program, Span span) {
   fail(program, Message("G0316", "the evaluation is nested more than 1000 deep", span)
@@ -32,7 +31,7 @@ struct DepthGuard {
   Program& program;
   DepthGuard(Program& p, Span span) : program(p) {
     count_step(p, span);
-    if (++p.depth <= kMaxDepth) return;
+    if (++p.depth <= kMaxEvaluationDepth) return;
     --p.depth;
     fail_depth(p, span);
   }
@@ -55,7 +54,7 @@ struct DepthGuard {
 }
 
 [[gnu::noinline]] Value eval_string(Program& program, const Expr& expr, Scope& scope) {
-  if (expr.children.empty()) return Value{expr.text};
+  if (expr.children.empty()) return text_value(program, expr.text, expr.span);
   std::string text;
   for (const Expr& child : expr.children) {
     if (child.kind == ExprKind::text) {
@@ -65,9 +64,9 @@ struct DepthGuard {
       const auto* plain = value.as<std::string>();
       text += plain != nullptr ? *plain : show(value);
     }
-    if (text.size() > kMaxText) fail(program, Message("G0326", "the text grows past 1 MB", expr.span));
+    if (text.size() > kMaxText) break;
   }
-  return Value{text};
+  return text_value(program, std::move(text), expr.span);
 }
 
 [[gnu::noinline]] Value eval_name(Program& program, const Expr& expr, Scope& scope) {
@@ -122,21 +121,21 @@ struct DepthGuard {
 }
 
 [[gnu::noinline]] Value eval_list(Program& program, const Expr& expr, Scope& scope) {
-  auto list = std::make_shared<std::vector<Value>>();
-  for (const Expr& child : expr.children) list->push_back(eval(program, child, scope));
-  return Value{ListValue(list)};
+  ListBuilder list(program, expr.children.size(), expr.span);
+  for (const Expr& child : expr.children) list.add(eval(program, child, scope));
+  return list.finish();
 }
 
 [[gnu::noinline]] Value eval_record(Program& program, const Expr& expr, Scope& scope) {
-  auto fields = std::make_shared<RecordFields>();
+  RecordFields fields;
   for (std::size_t k = 0; k < expr.children.size() && k < expr.labels.size(); ++k) {
     for (std::size_t j = 0; j < k; ++j)
       if (expr.labels[j].text == expr.labels[k].text)
         fail(program, Message("G0314", "`" + expr.labels[k].text + "` is given twice", expr.labels[k].span)
                           .also(expr.labels[j].span, "first here"));
-    fields->emplace_back(expr.labels[k].text, eval(program, expr.children[k], scope));
+    fields.emplace_back(expr.labels[k].text, eval(program, expr.children[k], scope));
   }
-  return Value{RecordValue(fields)};
+  return record_value(program, std::move(fields), expr.span);
 }
 
 [[gnu::noinline]] Value eval_range(Program& program, const Expr& expr, Scope& scope) {
@@ -195,7 +194,7 @@ Value eval(Program& program, const Expr& expr, Scope& scope) {
     case ExprKind::string:
       return eval_string(program, expr, scope);
     case ExprKind::text:
-      return Value{expr.text};
+      return text_value(program, expr.text, expr.span);
     case ExprKind::boolean:
       return Value{expr.text == "true"};
     case ExprKind::name:

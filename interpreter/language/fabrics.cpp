@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "interpreter/language/clauses.hpp"
+#include "interpreter/language/collections.hpp"
 #include "interpreter/language/fabric_fields.hpp"
 
 namespace garment::interpreter {
@@ -346,18 +347,18 @@ Value eval_with(Program& program, const Expr& expr, Scope& scope) {
   if (record == nullptr)
     fail(program,
          Message("G0306", kind_of(base) + " where `with` takes a fabric or a record", expr.children[0].span));
-  auto fields = std::make_shared<RecordFields>(**record);
+  RecordFields fields = **record;
   const Value given = eval(program, changes, scope);
   for (const auto& [name, value] : **given.as<RecordValue>()) {
     Value* known = nullptr;
-    for (auto& field : *fields)
+    for (auto& field : fields)
       if (field.first == name) known = &field.second;
     if (known != nullptr)
       *known = value;
     else
-      fields->emplace_back(name, value);
+      fields.emplace_back(name, value);
   }
-  return Value{RecordValue(fields)};
+  return record_value(program, std::move(fields), expr.span);
 }
 
 namespace {
@@ -425,7 +426,7 @@ Value evaluate_fabric(Program& program, Declaration& declaration) {
 
 int fabric_index(Program& program, const std::shared_ptr<const design::Fabric>& fabric) {
   const auto [found, inserted] =
-      program.fabric_index.emplace(fabric.get(), static_cast<int>(program.garment.fabrics.size()));
+      program.fabric_index.emplace(fabric, static_cast<int>(program.garment.fabrics.size()));
   if (inserted) program.garment.fabrics.push_back(*fabric);
   return found->second;
 }

@@ -74,6 +74,7 @@ Value evaluate_function(Program& program, Declaration& declaration) {
 
 const Value& force(Program& program, Declaration& declaration, Span asked_at) {
   using State = Declaration::State;
+  if (!program.running.empty()) program.running.back()->needs.insert(&declaration);
   if (declaration.state == State::done) return declaration.value;
   if (declaration.state == State::failed) throw Stop{};
   if (declaration.state == State::running) fail_cycle(program, declaration, asked_at);

@@ -8,8 +8,8 @@ namespace {
 constexpr std::pair<std::string_view, Dimension> kQuantityKinds[] = {{"number", kNumber}, {"length", kLength},
                                                                      {"angle", kAngle},   {"area", kArea},
                                                                      {"time", kTime},     {"mass", kMass}};
-constexpr std::string_view kOtherKinds[] = {"text", "truth", "point", "list", "fabric",
-                                            "body", "panel", "edge",  "part"};
+constexpr std::string_view kOtherKinds[] = {"text",  "truth",  "point", "list",  "record", "function",
+                                            "curve", "fabric", "body",  "panel", "edge",   "part"};
 
 std::vector<std::string> kind_names() {
   std::vector<std::string> names(std::begin(kOtherKinds), std::end(kOtherKinds));
@@ -22,6 +22,9 @@ bool is_kind(const Value& value, const std::string& kind) {
   if (kind == "truth") return value.as<bool>() != nullptr;
   if (kind == "point") return value.as<PointValue>() != nullptr;
   if (kind == "list") return value.as<ListValue>() != nullptr;
+  if (kind == "record") return value.as<RecordValue>() != nullptr;
+  if (kind == "function") return value.as<FunctionValue>() != nullptr;
+  if (kind == "curve") return value.as<CurveValue>() != nullptr || value.as<EdgeValue>() != nullptr;
   if (kind == "fabric") return value.as<FabricValue>() != nullptr;
   if (kind == "body") return value.as<BodyValue>() != nullptr;
   if (kind == "panel") return value.as<PanelValue>() != nullptr;

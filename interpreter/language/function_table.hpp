@@ -42,6 +42,8 @@ struct FunctionRecord {
   bool asks_drape = false;
   bool many = false;  ///< the last parameter may repeat
   bool open = false;  ///< takes further named arguments
+  /// Parameters that are directions (+x, -y, an angle): they arrive as unit vectors, plain points.
+  std::vector<std::string_view> directions{};
 };
 
 const std::vector<FunctionRecord>& function_table();
@@ -50,8 +52,17 @@ const FunctionRecord* find_function(std::string_view name);
 /// Runs a builtin on the arguments of `expr` (a call, or a bare name).
 Value call_builtin(Program& program, const FunctionRecord& record, const grammar::Expr& expr, Scope& scope);
 
+/// Calls a function that came as a value, with values in the order of its parameters. `call` is the place for messages,
+/// `asked_at` the argument that names the function.
+Value call_function(Program& program, const Value& function, const std::vector<Value>& values, const grammar::Expr& call,
+                    grammar::Span asked_at);
+
 namespace detail {
 std::vector<FunctionRecord> number_functions();
+std::vector<FunctionRecord> list_functions();
+std::vector<FunctionRecord> point_functions();
+std::vector<FunctionRecord> curve_functions();
+std::vector<FunctionRecord> crossing_functions();
 std::vector<FunctionRecord> garment_functions();
 std::vector<FunctionRecord> drape_functions();
 std::vector<FunctionRecord> shape_functions();

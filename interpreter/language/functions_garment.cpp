@@ -1,12 +1,9 @@
 // Builtin functions on the garment: what is known before the drape, and what is asked of it.
 #include "interpreter/language/edges.hpp"
-#include "interpreter/language/evaluate.hpp"
-#include "interpreter/language/function_table.hpp"
+#include "interpreter/language/function_arguments.hpp"
 
 namespace garment::interpreter::detail {
 namespace {
-
-Span place(const Call& call, std::size_t k) { return call.given(k) ? call.places[k]->span : call.expr.span; }
 
 const EdgeValue& edge_at(Call& call, std::size_t k) {
   const auto* edge = call.arguments[k].as<EdgeValue>();
@@ -110,20 +107,6 @@ std::vector<FunctionRecord> garment_functions() {
        0,
        [](Call&) { return Value{AllValue{}}; },
        true},
-      {"length",
-       "length(EDGE)",
-       "as sewn: darts closed",
-       "length(front.waist)",
-       {"edge"},
-       1,
-       [](Call& call) { return number_value(sewn_length(call.program, edge_at(call, 0)), kLength); }},
-      {"cut_length",
-       "cut_length(EDGE)",
-       "as cut: darts open",
-       "cut_length(front.waist)",
-       {"edge"},
-       1,
-       [](Call& call) { return number_value(cut_length(edge_at(call, 0)), kLength); }},
       {"area", "area(PANEL | all)", "of the cloth, darts cut away", "area(front)", {"panel"}, 1, run_area},
   };
 }

@@ -1,24 +1,11 @@
-// Builtin functions on numbers, points and lists.
+// Builtin functions on numbers.
 #include <cmath>
 
-#include "interpreter/language/evaluate.hpp"
-#include "interpreter/language/function_table.hpp"
+#include "interpreter/language/function_arguments.hpp"
 #include "runtime/base/portable_math.hpp"
 
 namespace garment::interpreter::detail {
 namespace {
-
-Span place(const Call& call, std::size_t k) { return call.given(k) ? call.places[k]->span : call.expr.span; }
-
-Quantity number_at(Call& call, std::size_t k) {
-  const auto* q = call.arguments[k].as<Quantity>();
-  if (q == nullptr)
-    fail(call.program,
-         Message("G0306", "`" + std::string(call.record.name) + "` of " + kind_of(call.arguments[k]),
-                 place(call, k))
-             .help("it takes numbers"));
-  return *q;
-}
 
 Quantity wanted(Call& call, std::size_t k, Dimension dimension) {
   return as_quantity(call.program, call.arguments[k], place(call, k), dimension,
@@ -120,57 +107,6 @@ Value run_abs(Call& call) {
   return Value{q};
 }
 
-Value run_count(Call& call) {
-  const auto* list = call.arguments[0].as<ListValue>();
-  if (list == nullptr)
-    fail(call.program, Message("G0306", "`count` of " + kind_of(call.arguments[0]), place(call, 0)));
-  return number_value(static_cast<double>((*list)->size()));
-}
-
-Value run_distance(Call& call) {
-  const auto *p = call.arguments[0].as<PointValue>(), *q = call.arguments[1].as<PointValue>();
-  if (p == nullptr || q == nullptr || p->size != q->size)
-    fail(call.program,
-         Message("G0306", "`distance` takes two points with as many coordinates", call.expr.span));
-  double sum = 0;
-  for (std::size_t k = 0; k < 3; ++k) sum += (p->at[k] - q->at[k]) * (p->at[k] - q->at[k]);
-  const Dimension dimension = p->dimension.none() ? q->dimension : p->dimension;
-  return finite(call, {std::sqrt(sum), dimension, false});
-}
-
-/// Point at an angle from +x and a distance from `p`.
-Value run_polar(Call& call) {
-  const auto* p = call.arguments[0].as<PointValue>();
-  if (p == nullptr || p->size != 2)
-    fail(call.program, Message("G0306", "`polar` starts from a point in the plane", place(call, 0)));
-  const double angle = wanted(call, 1, kAngle).value, far = wanted(call, 2, kLength).value;
-  return Value{PointValue{
-      {p->at[0] + far * portable::cos(angle), p->at[1] + far * portable::sin(angle), 0}, 2, kLength, -1}};
-}
-
-/// Point a fraction of the way, or a length, from `p` toward `q`.
-Value run_toward(Call& call) {
-  const auto *p = call.arguments[0].as<PointValue>(), *q = call.arguments[1].as<PointValue>();
-  if (p == nullptr || q == nullptr || p->size != q->size)
-    fail(call.program,
-         Message("G0306", "`toward` takes two points with as many coordinates", call.expr.span));
-  const Quantity way = number_at(call, 2);
-  double t = way.value;
-  if (way.dimension == kLength) {
-    double sum = 0;
-    for (std::size_t k = 0; k < 3; ++k) sum += (p->at[k] - q->at[k]) * (p->at[k] - q->at[k]);
-    if (sum == 0) fail(call.program, Message("G0319", "the two points are one", call.expr.span));
-    t = way.value / std::sqrt(sum);
-  } else if (!way.dimension.none()) {
-    fail(call.program, Message("G0306", "`toward` takes a fraction or a length", place(call, 2)));
-  }
-  PointValue r = *p;
-  for (std::size_t k = 0; k < 3; ++k) r.at[k] += t * (q->at[k] - p->at[k]);
-  if (p->dimension.none()) r.dimension = q->dimension;
-  r.panel = -1;
-  return Value{r};
-}
-
 }  // namespace
 
 std::vector<FunctionRecord> number_functions() {
@@ -234,28 +170,6 @@ std::vector<FunctionRecord> number_functions() {
        run_floor,
        true},
       {"ceil", "ceil(X [, STEP])", "up to a step", "ceil(3.2)", {"x", "step"}, 1, rounded<round_up>},
-      {"count", "count(LIST)", "how many values a list has", "count([1, 2])", {"list"}, 1, run_count},
-      {"distance",
-       "distance(P, Q)",
-       "between two points",
-       "distance((0, 0), (3 cm, 4 cm))",
-       {"p", "q"},
-       2,
-       run_distance},
-      {"polar",
-       "polar(P, ANGLE, LENGTH)",
-       "the point that far from P, in that direction from +x",
-       "polar((0, 0), 30 deg, 10 cm)",
-       {"p", "angle", "length"},
-       3,
-       run_polar},
-      {"toward",
-       "toward(P, Q, FRACTION | LENGTH)",
-       "the point that far on the way from P to Q",
-       "toward(p, q, 1/3)",
-       {"p", "q", "way"},
-       3,
-       run_toward},
   };
 }
 

@@ -1,9 +1,8 @@
 // Builtin functions that give the shape of a body.
 #include <algorithm>
 
-#include "interpreter/language/evaluate.hpp"
 #include "interpreter/language/files.hpp"
-#include "interpreter/language/function_table.hpp"
+#include "interpreter/language/function_arguments.hpp"
 
 namespace garment::interpreter::detail {
 namespace {
@@ -47,9 +46,7 @@ constexpr std::string_view kMeasures[] = {"stature",
                                           "buttockdepth",
                                           "headcircumference"};
 
-Span place(const Call& call, std::size_t k) { return call.given(k) ? call.places[k]->span : call.expr.span; }
-
-double length_at(Call& call, std::size_t k, double min, double max) {
+double bounded_length_at(Call& call, std::size_t k, double min, double max) {
   const std::string name(call.record.parameters[k]);
   const double x =
       as_quantity(call.program, call.arguments[k], place(call, k), kLength, "`" + name + "`").value;
@@ -99,7 +96,7 @@ Value run_mesh(Call& call) {
   if (path == nullptr)
     fail(call.program, Message("G0306", "`mesh` takes a file name in quotes", place(call, 0)));
   design::MeshFile file;
-  file.path = checked_path(call.program, *path, place(call, 0));
+  file.path = readable_path(call.program, *path, place(call, 0));
   if (call.given(1)) {
     file.scale = as_quantity(call.program, call.arguments[1], place(call, 1), kNumber, "`scale`").value;
     if (!(file.scale >= 1e-4 && file.scale <= 1e4))
@@ -149,7 +146,7 @@ std::vector<FunctionRecord> shape_functions() {
        "sphere(radius: 15 cm)",
        {"radius"},
        1,
-       [](Call& call) { return Value{ShapeValue{design::Sphere{length_at(call, 0, kSmallest, kLargest)}}}; }},
+       [](Call& call) { return Value{ShapeValue{design::Sphere{bounded_length_at(call, 0, kSmallest, kLargest)}}}; }},
       {"ellipsoid",
        "ellipsoid(semi_axes: (X, Y, Z))",
        "an ellipsoid about the body's place",
@@ -164,8 +161,8 @@ std::vector<FunctionRecord> shape_functions() {
        {"radius", "height"},
        2,
        [](Call& call) {
-         const double radius = length_at(call, 0, kSmallest, kLargest);
-         return Value{ShapeValue{design::Cylinder{radius, length_at(call, 1, kSmallest, kLargest)}}};
+         const double radius = bounded_length_at(call, 0, kSmallest, kLargest);
+         return Value{ShapeValue{design::Cylinder{radius, bounded_length_at(call, 1, kSmallest, kLargest)}}};
        }},
       {"box",
        "box(size: (X, Y, Z))",

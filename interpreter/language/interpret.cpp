@@ -121,10 +121,31 @@ grammar::Diagnostics to_diagnostics(const Findings& findings, const std::vector<
   return diagnostics;
 }
 
+namespace {
+
+/// A program with the host it reads files by.
+struct ConfinedProgram {
+  ConfinedHost host;
+  Program program;
+  ConfinedProgram(grammar::Sources& sources, Host& outer, const InterpretOptions& options)
+      : host(outer, readable(options)), program(sources, host, options) {}
+
+  static std::vector<std::string> readable(const InterpretOptions& options) {
+    std::vector<std::string> folders = options.allow_read;
+    folders.push_back(options.script_dir.empty() ? "." : options.script_dir);
+    folders.insert(folders.end(), options.library_dirs.begin(), options.library_dirs.end());
+    if (!options.stdlib_dir.empty()) folders.push_back(options.stdlib_dir);
+    return folders;
+  }
+};
+
+}  // namespace
+
 Interpretation interpret(grammar::Sources& sources, grammar::SourceId source, Host& host,
                          const InterpretOptions& options) {
   Interpretation result;
-  result.program = std::make_shared<Program>(sources, host, options);
+  const auto confined = std::make_shared<ConfinedProgram>(sources, host, options);
+  result.program = std::shared_ptr<Program>(confined, &confined->program);
   Program& program = *result.program;
   grammar::ParseResult parsed = grammar::parse(sources, source, vocabulary());
   program.main = &program.modules.emplace_back();
@@ -156,6 +177,7 @@ Interpretation interpret(grammar::Sources& sources, grammar::SourceId source, Ho
   result.acts = program.acts;
   result.parameters = program.parameters;
   result.measures = program.measures;
+  result.solved = program.solved;
   result.diagnostics = program.diagnostics;
   result.origins = program.origins;
   result.script = &program.main->script;

@@ -24,7 +24,8 @@ struct InterpretOptions {
   std::vector<std::string> library_dirs;      ///< where `use NAME` looks first
   std::string script_dir;                     ///< files named by the script are looked up below it
   std::map<std::string, std::string> params;  ///< name -> expression text, as after `-p`
-  bool any_path = false;                      ///< files may lie outside `script_dir`
+  std::vector<std::string> allow_read;        ///< further folders below which files may be read
+  std::vector<std::string> allow_write;       ///< folders beside the output folder below which `save` may write
   /// Build all declared bodies. Otherwise mannequins are built only where a script asks what their measures do not
   /// tell, and Interpretation::bodies is empty for the others.
   bool build_bodies = true;
@@ -74,12 +75,26 @@ struct MeasureValue {
   std::string unit;             ///< SI unit of `value`, "" for numbers
 };
 
+/// What a `solve` found.
+struct SolvedValue {
+  std::string name;
+  std::string text;             ///< "13.2 cm"
+  double value = 0;             ///< SI
+  std::string unit;             ///< SI unit of `value`
+  std::string residual;         ///< left minus right side of the condition, as text
+  double residual_value = 0;    ///< SI
+  std::string residual_unit;
+  std::string bound;            ///< "low" or "high" where an end of the range was reached, else empty
+  int trials = 0;
+};
+
 struct Interpretation {
   design::Garment garment;
   std::vector<body::Body> bodies;  ///< of garment.bodies, same order; empty where one could not be built
   std::vector<Act> acts;           ///< in the order of the script
   std::vector<Parameter> parameters;
   std::vector<MeasureValue> measures;
+  std::vector<SolvedValue> solved;          ///< in the order of the script
   grammar::Diagnostics diagnostics;
   std::vector<grammar::Span> origins;       ///< by OriginId; [0] stands for "no statement"
   const grammar::Script* script = nullptr;  ///< the tree of the script, kept alive by `program`

@@ -7,9 +7,6 @@
 namespace garment::interpreter {
 namespace {
 
-constexpr std::uint64_t kMaxFile = 4u << 20;
-constexpr int kMaxUseDepth = 16;
-
 std::string stem(const std::string& path) {
   const std::size_t slash = path.rfind('/');
   std::string name = slash == std::string::npos ? path : path.substr(slash + 1);
@@ -35,9 +32,12 @@ Found read_first(Program& program, const std::vector<std::string>& paths, const 
                  Span span) {
   std::string why;
   for (const std::string& path : paths) {
-    HostResult<std::string> text = program.host.read_file(path, kMaxFile);
+    HostResult<std::string> text = program.host.read_file(path, kMaxSourceBytes);
     if (text) return {path, std::move(*text.value)};
     why = text.error.message;
+    if (text.error.denied)
+      fail(program, Message("G0328", name + " lies outside the script's folder: a link leads out of it", span)
+                        .help("put the file itself beside the script, or grant its folder with `--allow-read`"));
   }
   std::string hint = "libraries are fabrics, bodies, blocks and modifiers; other files are named in quotes";
   if (paths.size() > 1) hint += "; looked in `--library` folders and the standard library";
@@ -106,7 +106,7 @@ void use_one(Program& program, const Expr& operand, const std::string& as, Scope
     name = operand.text;
     paths = places_of(program, name);
   } else if (operand.kind == ExprKind::string) {
-    const std::string file = checked_path(program, eval_text(program, operand, scope, "`use`"), operand.span);
+    const std::string file = readable_path(program, eval_text(program, operand, scope, "`use`"), operand.span);
     paths.push_back(program.options.script_dir.empty() || file[0] == '/'
                         ? file
                         : program.options.script_dir + '/' + file);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "interpreter/language/bodies.hpp"
+#include "interpreter/language/curve_values.hpp"
 #include "interpreter/language/edges.hpp"
 #include "interpreter/language/evaluate.hpp"
 #include "interpreter/language/fabrics.hpp"
@@ -106,6 +107,31 @@ Value edge_member(Program& program, const Expr& expr, const EdgeValue& edge, con
   fail_member(program, expr, "edge `" + show(Value{edge}) + "`", name, {"start", "end", "middle", "at"});
 }
 
+Value curve_member(Program& program, const Expr& expr, const geometry::Curve& curve, const std::string& name) {
+  auto point = [](const design::Point2& p) { return Value{PointValue{{p.x(), p.y(), 0}, 2, kLength, -1}}; };
+  if (name == "start") return point(curve.start());
+  if (name == "end") return point(curve.end());
+  if (name == "middle") return point(curve.point_at(curve.length() / 2));
+  fail_member(program, expr, "the curve", name, {"start", "end", "middle", "at"});
+}
+
+/// `curve[from .. to]`: walked backwards where from > to.
+Value curve_part(Program& program, const Expr& expr, const geometry::Curve& curve, Scope& scope) {
+  auto end_at = [&](const Expr& value, double missing) {
+    if (value.kind == ExprKind::none) return missing;
+    if (value.kind == ExprKind::name && value.text == "start") return 0.0;
+    if (value.kind == ExprKind::name && value.text == "end") return curve.length();
+    return position_along(program, eval(program, value, scope), curve.length(), value.span, "a part of a curve");
+  };
+  const double from = end_at(expr.children[1], 0), to = end_at(expr.children[2], curve.length());
+  if (!(std::fabs(to - from) > 1e-6))
+    fail(program, Message("G0309",
+                          "a part from " + format_quantity(from, kLength) + " to " + format_quantity(to, kLength) +
+                              " has no length",
+                          expr.span));
+  return curve_value(program, curve.part(from, to), expr.span);
+}
+
 Value dart_member(Program& program, const Expr& expr, const DartValue& value, const std::string& name) {
   for (const design::EdgeDart& dart : program.panels[static_cast<std::size_t>(value.panel)].panel.darts) {
     if (dart.name != value.name) continue;
@@ -172,6 +198,7 @@ Value eval_member(Program& program, const Expr& expr, Scope& scope) {
   if (const auto* v = base.as<HalfValue>())
     return panel_member(program, expr, v->panel, v->half, name, scope);
   if (const auto* v = base.as<EdgeValue>()) return edge_member(program, expr, *v, name);
+  if (const auto* v = base.as<CurveValue>()) return curve_member(program, expr, (*v)->curve, name);
   if (const auto* v = base.as<DartValue>()) return dart_member(program, expr, *v, name);
   if (const auto* v = base.as<RecordValue>()) return record_member(program, expr, **v, name);
   if (const auto* v = base.as<PointValue>()) return point_member(program, expr, *v, name);
@@ -189,9 +216,10 @@ Value eval_member(Program& program, const Expr& expr, Scope& scope) {
 
 Value eval_range_index(Program& program, const Expr& expr, Scope& scope) {
   const Value base = eval(program, expr.children[0], scope);
+  if (const auto* curve = base.as<CurveValue>()) return curve_part(program, expr, (*curve)->curve, scope);
   const auto* edge = base.as<EdgeValue>();
   if (edge == nullptr || edge->spans.size() != 1)
-    fail(program, Message("G0306", "only one edge has parts `[from .. to]`, this is " + kind_of(base),
+    fail(program, Message("G0306", "only one edge or curve has parts `[from .. to]`, this is " + kind_of(base),
                           expr.children[0].span));
   const EdgeSpan& span = edge->spans[0];
   const double length = cut_length(span);

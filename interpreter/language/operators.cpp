@@ -1,6 +1,9 @@
 #include <cmath>
 
+#include "interpreter/language/collections.hpp"
+#include "interpreter/language/curve_values.hpp"
 #include "interpreter/language/evaluate.hpp"
+#include "runtime/base/limits.hpp"
 #include "runtime/base/portable_math.hpp"
 
 namespace garment::interpreter {
@@ -9,7 +12,7 @@ namespace {
 [[noreturn]] void fail_kinds(Program& program, const Expr& expr, const Value& a, const Value& b) {
   fail(program,
        Message("G0306", "`" + expr.text + "` between " + kind_of(a) + " and " + kind_of(b), expr.span)
-           .help(expr.text == "+" ? "`+` adds numbers of one kind, adds points, and chains edges" : ""));
+           .help(expr.text == "+" ? "`+` adds numbers of one kind, adds points, joins lists, and chains edges and curves" : ""));
 }
 
 [[noreturn]] void fail_dimensions(Program& program, const Expr& expr, const Quantity& a, const Quantity& b) {
@@ -107,7 +110,12 @@ Value scale_point(Program& program, const Expr& expr, PointValue p, const Quanti
   return Value{p};
 }
 
-Value chain(const EdgeValue& a, const EdgeValue& b, bool backwards) {
+Value chain(Program& program, const Expr& expr, const EdgeValue& a, const EdgeValue& b, bool backwards) {
+  if (a.spans.size() + b.spans.size() > kMaxLinks)
+    fail(program, Message("G1603", "a chain of " + std::to_string(a.spans.size() + b.spans.size()) +
+                                       " edges; at most " + std::to_string(kMaxLinks) + " are allowed",
+                          expr.span)
+                      .help("sew in several seams"));
   EdgeValue r = a;
   for (std::size_t k = 0; k < b.spans.size(); ++k) {
     EdgeSpan span = b.spans[backwards ? b.spans.size() - 1 - k : k];
@@ -115,6 +123,16 @@ Value chain(const EdgeValue& a, const EdgeValue& b, bool backwards) {
     r.spans.push_back(span);
   }
   return Value{r};
+}
+
+Value concatenated(Program& program, const Expr& expr, const ListBody& a, const ListBody& b) {
+  ListBuilder list(program, a.size() + b.size(), expr.span);
+  for (const ListBody* part : {&a, &b})
+    for (const Value& value : *part) {
+      count_step(program, expr.span);
+      list.add(value);
+    }
+  return list.finish();
 }
 
 }  // namespace
@@ -130,7 +148,9 @@ Value apply_unary(Program& program, const Expr& expr, const Value& a) {
     return Value{r};
   }
   if (const auto* edge = a.as<EdgeValue>(); edge != nullptr && expr.text == "-")
-    return chain({}, *edge, true);
+    return chain(program, expr, {}, *edge, true);
+  if (const auto* curve = a.as<CurveValue>(); curve != nullptr && expr.text == "-")
+    return curve_value(program, (*curve)->curve.reversed(), expr.span);
   fail(program, Message("G0306", "`" + expr.text + "` before " + kind_of(a), expr.span));
 }
 
@@ -145,7 +165,12 @@ Value apply_binary(Program& program, const Expr& expr, const Value& a, const Val
     const double sign = op == "+" ? 1 : -1;
     if (p != nullptr && q != nullptr) return finite(program, expr, add(program, expr, *p, *q, sign));
     if (u != nullptr && v != nullptr) return point_arithmetic(program, expr, *u, *v, sign);
-    if (e != nullptr && f != nullptr) return chain(*e, *f, op == "-");
+    if (e != nullptr && f != nullptr) return chain(program, expr, *e, *f, op == "-");
+    const bool curves = a.as<CurveValue>() != nullptr || b.as<CurveValue>() != nullptr;
+    if (curves && (e != nullptr || f != nullptr || a.data.index() == b.data.index()))
+      return join_curves(program, a, b, op == "-", expr.span);
+    const auto *l = a.as<ListValue>(), *m = b.as<ListValue>();
+    if (op == "+" && l != nullptr && m != nullptr) return concatenated(program, expr, **l, **m);
   }
   if (op == "*") {
     if (p != nullptr && q != nullptr) return multiply(program, expr, *p, *q, false);

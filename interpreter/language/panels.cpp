@@ -247,6 +247,16 @@ Value evaluate_panel(Program& program, Declaration& declaration) {
   return Value{PanelValue{declaration.index}};
 }
 
+void forget_panel(Program& program, Declaration& declaration) {
+  PanelInfo& info = program.panels[static_cast<std::size_t>(declaration.index)];
+  PanelInfo blank;
+  blank.panel.name = declaration.name;
+  blank.on_back = info.on_back;
+  info = std::move(blank);
+  program.recipes.erase(declaration.index);
+  std::erase_if(program.panel_places, [&](const Item& item) { return item.declaration == &declaration; });
+}
+
 void find_backs(Program& program) {
   for (const Item& item : program.main->items) {
     if (item.declaration != nullptr && item.statement->keyword.text == "panel" && item.statement->body)

@@ -1,6 +1,7 @@
 #include "interpreter/language/parameters.hpp"
 
 #include "interpreter/language/clauses.hpp"
+#include "interpreter/language/collections.hpp"
 
 namespace garment::interpreter {
 namespace {
@@ -21,7 +22,7 @@ Value eval_given(Program& program, const std::string& name, const std::string& t
   // A word that names nothing is meant as text: -p fit=slim
   if (parsed.expr.kind == ExprKind::name && find_local(scope, parsed.expr.text) == nullptr &&
       find_declaration(scope, parsed.expr.text) == nullptr)
-    return Value{parsed.expr.text};
+    return text_value(program, parsed.expr.text, parsed.expr.span);
   return eval(program, parsed.expr, scope);
 }
 
@@ -124,6 +125,10 @@ Value evaluate_param(Program& program, Declaration& declaration) {
   parameter.value = show(value);
   program.parameters.push_back(parameter);
   return value;
+}
+
+void forget_param(Program& program, Declaration& declaration) {
+  std::erase_if(program.parameters, [&](const Parameter& known) { return known.name == declaration.name; });
 }
 
 void check_given_parameters(Program& program) {

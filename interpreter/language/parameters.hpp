@@ -5,6 +5,8 @@
 namespace garment::interpreter {
 
 Value evaluate_param(Program& program, Declaration& declaration);
+/// Takes its entry in the list of parameters back.
+void forget_param(Program& program, Declaration& declaration);
 
 /// Reports values given for parameters that the script does not have.
 void check_given_parameters(Program& program);

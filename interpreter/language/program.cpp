@@ -2,7 +2,6 @@
 
 namespace garment::interpreter {
 namespace {
-constexpr std::size_t kMaxSteps = 50'000'000;
 constexpr std::size_t kMaxDiagnostics = 200;
 }  // namespace
 

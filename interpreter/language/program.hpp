@@ -74,6 +74,9 @@ struct Declaration {
   /// Gives the value in place of the construct's record: arguments of a part.
   Value (*evaluate)(Program&, Declaration&) = nullptr;
   Declaration* pair_left = nullptr;  ///< of the right one of a `pair panel`: the one it mirrors
+  /// What its value was made from: the declarations asked for while it was evaluated. Nothing may follow from their
+  /// order here.
+  std::set<Declaration*> needs;
 };
 
 /// Names visible at a place. Statement scopes live in Program::scopes; a call's scope lives on the stack.
@@ -167,7 +170,7 @@ struct Program {
   std::vector<SeamInfo> seams;
   std::map<int, std::shared_ptr<const Recipe>> recipes;  ///< by panel
   std::vector<Item> panel_places;                        ///< `place` inside a panel's block
-  std::map<const design::Fabric*, int> fabric_index;
+  std::map<std::shared_ptr<const design::Fabric>, int> fabric_index;  ///< keeps them alive, so that none is mistaken
   std::vector<std::shared_ptr<const body::Body>> built;  ///< by body index; empty until asked
   std::vector<bool> build_failed;
   std::map<int, body::Frame> frames;  ///< of mannequins, by body index
@@ -175,6 +178,8 @@ struct Program {
   std::set<int> placed;
   std::vector<Act> acts;
   std::vector<MeasureValue> measures;
+  std::vector<SolvedValue> solved;
+  int solving = 0;  ///< solves within each other that are being tried
   std::vector<Parameter> parameters;
   std::map<std::string, std::string> given;  ///< parameters not yet met
 
@@ -185,6 +190,7 @@ struct Program {
   std::vector<Span> calls;               ///< places of the calls being run
   const Part* part = nullptr;            ///< whose block is being evaluated
   const DrapeMeasures* drape = nullptr;  ///< while an `expect` is evaluated
+  std::shared_ptr<Meter> meter = std::make_shared<Meter>();  ///< of the values
   std::size_t steps = 0;
   int depth = 0;
   std::size_t expanded = 0;  ///< statements made by loops

@@ -33,6 +33,7 @@ std::string curve_clause(const geometry::Curve& curve) {
         out += (out.empty() ? " through " : ", ") + text::point(p);
       return out;
     }
+    std::string operator()(const geometry::Chain& chain) const { return " along " + text::curves(*chain.links); }
   };
   return std::visit(Printer{}, curve.shape());
 }

@@ -42,6 +42,31 @@ std::string point(const Eigen::Vector3d& p) {
   return fmt::format("({}, {}, {})", length(p.x()), length(p.y()), length(p.z()));
 }
 
+std::string curves(const std::vector<geometry::Curve>& links) {
+  struct Course {
+    std::string operator()(const geometry::Line&) const { return {}; }
+    std::string operator()(const geometry::Quadratic& q) const { return ", control: " + point(q.control); }
+    std::string operator()(const geometry::Cubic& c) const {
+      return fmt::format(", controls: [{}, {}]", point(c.control_1), point(c.control_2));
+    }
+    std::string operator()(const geometry::Arc& arc) const { return ", bulge: " + length(arc.bulge); }
+    std::string operator()(const geometry::Through& spline) const {
+      std::string out;
+      for (const design::Point2& p : spline.points) out += (out.empty() ? "" : ", ") + point(p);
+      return ", through: [" + out + "]";
+    }
+    std::string operator()(const geometry::Chain&) const { return {}; }  // a link is never a chain
+  };
+  std::string out;
+  for (const geometry::Curve& link : links) {
+    const bool straight = std::holds_alternative<geometry::Line>(link.shape());
+    const bool arc = std::holds_alternative<geometry::Arc>(link.shape());
+    out += fmt::format("{}{}({}, {}{})", out.empty() ? "" : " + ", straight ? "line" : arc ? "arc" : "curve",
+                       point(link.start()), point(link.end()), std::visit(Course{}, link.shape()));
+  }
+  return out;
+}
+
 std::string angle_deg(double degrees) {
   std::string number = rounded(degrees, 1e10);
   return number == "0" ? number : number + " deg";

@@ -14,6 +14,8 @@ std::string length(double metres);
 /// "(12.5 cm, 0)".
 std::string point(const design::Point2& p);
 std::string point(const Eigen::Vector3d& p);
+/// Curves that follow each other as an expression: "line(P, Q) + arc(P, Q, bulge: 1 cm)".
+std::string curves(const std::vector<geometry::Curve>& links);
 /// Angle in degrees with ten decimals at most ("30 deg"), plain 0 for zero.
 std::string angle_deg(double degrees);
 /// Number with twelve significant digits at most.

@@ -11,12 +11,13 @@ struct KindNamer {
   std::string operator()(std::monostate) const { return "nothing"; }
   std::string operator()(const Quantity& q) const { return describe(q.dimension); }
   std::string operator()(bool) const { return "a truth value"; }
-  std::string operator()(const std::string&) const { return "text"; }
+  std::string operator()(const TextValue&) const { return "text"; }
   std::string operator()(const PointValue& p) const {
     return p.size == 2 ? "a point in the plane" : "a point in space";
   }
   std::string operator()(const ListValue&) const { return "a list"; }
   std::string operator()(const RangeValue&) const { return "a range"; }
+  std::string operator()(const CurveValue&) const { return "a curve"; }
   std::string operator()(const RecordValue&) const { return "a record"; }
   std::string operator()(const FunctionValue&) const { return "a function"; }
   std::string operator()(const BuiltinValue&) const { return "a builtin function"; }

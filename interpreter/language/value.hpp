@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "interpreter/language/memory.hpp"
 #include "interpreter/language/units.hpp"
 #include "runtime/design/garment.hpp"
 
@@ -37,9 +38,18 @@ struct RangeValue {
   Quantity from, to;
 };
 
-using ListValue = std::shared_ptr<const std::vector<Value>>;
+/// Text, lists, records and curves are shared by their copies, and their memory is counted while they live: they are
+/// made by `text_value`, `ListBuilder`, `record_value` and `curve_value` (collections.hpp, curve_values.hpp).
+struct TextBody;
+struct ListBody;    ///< is a std::vector<Value>
+struct RecordBody;  ///< is a RecordFields
+struct CurveBody;
+using TextValue = std::shared_ptr<const TextBody>;
+using ListValue = std::shared_ptr<const ListBody>;
 using RecordFields = std::vector<std::pair<std::string, Value>>;
-using RecordValue = std::shared_ptr<const RecordFields>;
+using RecordValue = std::shared_ptr<const RecordBody>;
+/// A drafted curve, metres in the plane; `closed` where it is a ring.
+using CurveValue = std::shared_ptr<const CurveBody>;
 
 /// A declared `fn`, a builtin function, a used library file.
 struct FunctionValue {
@@ -113,7 +123,7 @@ struct AllValue {};
 struct DrapedValue {};
 
 struct Value {
-  std::variant<std::monostate, Quantity, bool, std::string, PointValue, ListValue, RangeValue, RecordValue,
+  std::variant<std::monostate, Quantity, bool, TextValue, PointValue, ListValue, RangeValue, RecordValue, CurveValue,
                FunctionValue, BuiltinValue, ModuleValue, FabricValue, ShapeValue, BodyValue, BodyPlaceValue,
                PanelValue, HalfValue, EdgeValue, DartValue, NotchValue, SeamValue, PinValue, ThingValue,
                AllValue, DrapedValue>
@@ -124,6 +134,30 @@ struct Value {
     return std::get_if<T>(&data);
   }
 };
+
+struct TextBody {
+  std::string text;
+  Charge charge;
+};
+struct ListBody : std::vector<Value> {
+  int depth = 1;  ///< of lists and records within each other
+  Charge charge;
+};
+struct RecordBody : RecordFields {
+  int depth = 1;
+  Charge charge;
+};
+struct CurveBody {
+  geometry::Curve curve;
+  Charge charge;
+};
+
+/// Text is asked for as `as<std::string>()`.
+template <>
+inline const std::string* Value::as<std::string>() const {
+  const auto* text = std::get_if<TextValue>(&data);
+  return text == nullptr ? nullptr : &(*text)->text;
+}
 
 inline Value number_value(double value, Dimension dimension = {}, bool percent = false) {
   return Value{Quantity{value, dimension, percent}};

@@ -15,9 +15,6 @@ ResultFile make_result_file(const std::string& name, const design::Garment& garm
                             const std::vector<body::Body>& bodies, const model::Model& model,
                             const model::State& state) {
   std::filesystem::path path(name);
-  if (path.is_absolute() || name.find("..") != std::string::npos || name.empty())
-    return {std::nullopt, fmt::format("`save \"{}\"` leaves the results folder", name),
-            "give a plain file name; -o says where it goes"};
   std::string ending = path.extension().string();
   if (ending == ".obj") return {io::write_obj(model, state), "", ""};
   if (ending == ".glb") return {io::write_glb(model, state, bodies), "", ""};

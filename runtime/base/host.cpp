@@ -14,6 +14,8 @@
 #include <system_error>
 #include <utility>
 
+#include "runtime/base/access.hpp"
+
 namespace garment {
 namespace {
 
@@ -58,7 +60,22 @@ bool write_all(int fd, std::string_view bytes) {
 class SystemHost final : public Host {
  public:
   HostResult<std::string> read_file(const std::string& path, std::uint64_t max_bytes) override {
-    Descriptor fd(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+    return read_all(Descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)), max_bytes);
+  }
+
+  HostResult<std::string> read_below(const std::vector<std::string>& folders, const std::string& path,
+                                     std::uint64_t max_bytes) override {
+    const HostResult<int> opened = open_below(folders, path);
+    if (!opened) return {std::nullopt, opened.error};
+    return read_all(Descriptor(*opened.value), max_bytes);
+  }
+
+  HostResult<bool> write_below(const std::vector<std::string>& folders, const std::string& path,
+                               std::string_view bytes) override {
+    return write_below_folders(folders, path, bytes);
+  }
+
+  static HostResult<std::string> read_all(const Descriptor& fd, std::uint64_t max_bytes) {
     if (fd.get() < 0) return {std::nullopt, last_error()};
     struct stat info {};
     if (::fstat(fd.get(), &info) != 0) return {std::nullopt, last_error()};

@@ -67,7 +67,8 @@ class BodyBuilder {
     HostResult<std::string> text = host_.read_file(path, kMaxObjBytes);
     if (!text) {
       fail("G0701", fmt::format("`{}` cannot be read: {}", file.path, text.error.message),
-           "check the path; it counts from the folder of the script");
+           text.error.denied ? "put the file itself beside the script, or grant its folder with `--allow-read`"
+                             : "check the path; it counts from the folder of the script");
       return;
     }
     MeshResult result = read_obj(*text.value, file.scale, file.path, declared_.origin);

@@ -79,6 +79,9 @@ Curve::Curve(Point2 start, Point2 end, Shape shape) : start_(start), end_(end), 
     add_bezier(start_, c->control_1, c->control_2, end_);
   } else if (const auto* through = std::get_if<Through>(&shape_)) {
     add_through(through->points);
+  } else if (const auto* chain = std::get_if<Chain>(&shape_)) {
+    for (const Curve& link : *chain->links)
+      pieces_.insert(pieces_.end(), link.pieces_.begin(), link.pieces_.end());
   } else {
     Piece piece;
     piece.p[0] = piece.p[1] = start_;
@@ -267,6 +270,11 @@ Curve Curve::mapped(const Map& map, double bulge_factor) const {
   if (auto* arc = std::get_if<Arc>(&shape)) arc->bulge *= bulge_factor;
   if (auto* through = std::get_if<Through>(&shape))
     for (Point2& p : through->points) p = map(p);
+  if (auto* links = std::get_if<Chain>(&shape)) {
+    auto made = std::make_shared<std::vector<Curve>>();
+    for (const Curve& link : *links->links) made->push_back(link.mapped(map, bulge_factor));
+    links->links = std::move(made);
+  }
   return Curve(map(start_), map(end_), std::move(shape));
 }
 
@@ -276,6 +284,11 @@ Curve Curve::reversed() const {
   if (auto* arc = std::get_if<Arc>(&shape)) arc->bulge = -arc->bulge;
   if (auto* through = std::get_if<Through>(&shape))
     std::reverse(through->points.begin(), through->points.end());
+  if (auto* links = std::get_if<Chain>(&shape)) {
+    auto made = std::make_shared<std::vector<Curve>>();
+    for (std::size_t k = links->links->size(); k-- > 0;) made->push_back((*links->links)[k].reversed());
+    links->links = std::move(made);
+  }
   return Curve(end_, start_, std::move(shape));
 }
 

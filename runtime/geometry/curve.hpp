@@ -1,6 +1,7 @@
 #pragma once
 // Plane curves: the edges of panels. Arc length is the parameter that everyone else uses.
 #include <Eigen/Geometry>
+#include <memory>
 #include <variant>
 #include <vector>
 
@@ -27,11 +28,17 @@ struct Through {
   std::vector<Point2> points;
 };
 
+class Curve;
+/// Curves that follow each other, each beginning where the one before ends; none of them a chain. See `chain`.
+struct Chain {
+  std::shared_ptr<const std::vector<Curve>> links;
+};
+
 /// A curve from `start` to `end`, metres. Value type; the arc-length table is made at construction, so it is
 /// cheap to ask.
 class Curve {
  public:
-  using Shape = std::variant<Line, Quadratic, Cubic, Arc, Through>;
+  using Shape = std::variant<Line, Quadratic, Cubic, Arc, Through, Chain>;
 
   Curve() = default;  ///< a line of no length at the origin
   /// Control points that are not finite, or beyond about 1e150 m, make a curve of no length at `start`.
@@ -57,6 +64,12 @@ class Curve {
   Curve transformed(const Eigen::Isometry2d& motion) const;
   Curve scaled(double factor) const;  ///< about the origin
 
+  /// The piece from arc length `from` to `to`, both clamped to [0, length]; walked backwards where from > to. Exact:
+  /// part of an arc is an arc, part of a spline a chain of cubics.
+  Curve part(double from, double to) const;
+  /// The same curve as lines, arcs and cubics in the order walked.
+  std::vector<Curve> elements() const;
+
   /// Polyline with chord error at most `tolerance` metres, both ends included; `at` receives the arc length
   /// of each point.
   std::vector<Point2> polyline(double tolerance, std::vector<double>* at = nullptr) const;
@@ -69,6 +82,7 @@ class Curve {
   /// A piece of the curve over t in [0, 1]: a cubic Bezier, or a circular arc (a straight line is one with
   /// half = 0).
   struct Piece {
+    Curve between(double t0, double t1) const;
     Point2 p[4];  // an arc uses p[0] and p[3] only
     bool bezier = false;
     double half = 0;  // half the angle an arc turns by; positive where the arc lies to the left of its chord
@@ -91,5 +105,9 @@ class Curve {
   std::vector<Piece> pieces_;              // none: a line of no length
   std::vector<double> table_s_, table_t_;  // arc length at increasing t in [0, number of pieces]
 };
+
+/// One curve made of several; what is itself a chain is taken apart. The ends should meet: a gap is walked over in no
+/// length. No links give a curve of no length.
+Curve chain(const std::vector<Curve>& links);
 
 }  // namespace garment::geometry

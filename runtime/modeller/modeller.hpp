@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "runtime/base/finding.hpp"
+#include "runtime/base/limits.hpp"
 #include "runtime/body/body.hpp"
 #include "runtime/design/garment.hpp"
 #include "runtime/model/model.hpp"
@@ -15,7 +16,7 @@ struct ModelOptions {
   /// Factor on the grid spacings, for coarse grids of a garment: 2, 4. A panel too narrow for that keeps a
   /// grid of two spacings across its mean width, or what it states if that is coarser still.
   double coarsen = 1;
-  std::size_t max_particles = 2'000'000;
+  std::size_t max_particles = kMaxParticles;
 };
 
 struct ModelResult {

@@ -95,6 +95,18 @@ Json expects(const std::vector<ExpectOutcome>& all) {
   return out;
 }
 
+Json solves(const std::vector<SolveOutcome>& all) {
+  Json out = Json::array();
+  for (const SolveOutcome& s : all)
+    out.push_back({{"name", s.name},
+                   {"value", s.value},
+                   {"shown", s.shown},
+                   {"residual", s.residual},
+                   {"shown_residual", s.shown_residual},
+                   {"bound", s.bound.empty() ? Json(nullptr) : Json(s.bound)}});
+  return out;
+}
+
 Json outputs(const std::vector<OutputFile>& all) {
   Json out = Json::array();
   for (const OutputFile& f : all) out.push_back({{"name", f.name}, {"bytes", f.bytes}, {"sha256", f.sha256}});
@@ -157,6 +169,7 @@ std::string report_json(const Report& r) {
                     {"garment", std::move(garment)},
                     {"panels", std::move(panels)},
                     {"seams", seams(r.measures.seams)},
+                    {"solves", solves(r.solves)},
                     {"expects", expects(r.expects)},
                     {"outputs", outputs(r.outputs)},
                     {"state_hash", r.state_hash},

@@ -34,6 +34,14 @@ struct ExpectOutcome {
   bool passed = false;
 };
 
+/// What a `solve` of the script found.
+struct SolveOutcome {
+  std::string name;
+  double value = 0, residual = 0;  ///< SI; of the condition, left minus right
+  std::string shown, shown_residual;
+  std::string bound;  ///< "low" or "high" where an end of the range was reached, else empty
+};
+
 struct PhaseTime {
   std::string phase;  ///< "parse", "model", "drape", "write", ...
   double seconds = 0;
@@ -57,6 +65,7 @@ struct Report {
   StrainReport strain;
   Measures measures;
   std::string state_hash;
+  std::vector<SolveOutcome> solves;
   std::vector<ExpectOutcome> expects;
   std::vector<OutputFile> outputs;
   std::vector<PhaseTime> phases;  ///< wall clock, s
