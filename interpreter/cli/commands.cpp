@@ -7,6 +7,7 @@
 
 #include "interpreter/cli/modelling.hpp"
 #include "interpreter/language/construct_table.hpp"
+#include "interpreter/language/limit_table.hpp"
 #include "interpreter/language/unparse.hpp"
 #include "runtime/io/pattern_json.hpp"
 #include "runtime/model/dump.hpp"
@@ -28,6 +29,29 @@ bool read_script(const std::string& file, Host& host, grammar::Sources& sources,
 
 std::string plural(std::size_t n, const char* word) { return fmt::format("{} {}{}", n, word, n == 1 ? "" : "s"); }
 
+nlohmann::ordered_json measures(const interpreter::Interpretation& result) {
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  for (const interpreter::MeasureValue& m : result.measures) {
+    nlohmann::ordered_json measure{{"name", m.name}, {"shown", m.text}};
+    if (m.value) measure.update({{"value", *m.value}, {"unit", m.unit}});
+    all.push_back(std::move(measure));
+  }
+  return all;
+}
+
+nlohmann::ordered_json solves(const interpreter::Interpretation& result) {
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  for (const interpreter::SolvedValue& s : result.solved)
+    all.push_back({{"name", s.name},
+                   {"shown", s.text},
+                   {"value", s.value},
+                   {"unit", s.unit},
+                   {"residual", {{"shown", s.residual}, {"value", s.residual_value}, {"unit", s.residual_unit}}},
+                   {"bound", s.bound.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(s.bound)},
+                   {"trials", s.trials}});
+  return all;
+}
+
 ExitCode load_model(Project& project, std::optional<model::Model>& model, const ProjectOptions& options, Host& host,
                     Terminal& terminal) {
   if (ExitCode code = load(project, options, host, terminal); code != kOk) return code;
@@ -47,12 +71,21 @@ ExitCode check(const ProjectOptions& given, bool whole, Host& host, Terminal& te
   const design::Garment& g = project.result.garment;
   if (terminal.options().json) {
     nlohmann::ordered_json all{{"ok", code == kOk}};
-    if (code == kOk) all.update({{"panels", g.panels.size()}, {"seams", g.seams.size()}});
+    if (code == kOk)
+      all.update({{"panels", g.panels.size()},
+                  {"seams", g.seams.size()},
+                  {"measures", measures(project.result)},
+                  {"solves", solves(project.result)}});
     terminal.document(all.dump());
   }
   if (code != kOk) return code;
   if (!terminal.options().json)
     terminal.note(fmt::format("{}: ok, {}, {}", options.file, plural(g.panels.size(), "panel"), plural(g.seams.size(), "seam")));
+  return kOk;
+}
+
+ExitCode show_limits(Terminal& terminal) {
+  terminal.result(terminal.options().json ? interpreter::limits_json() : interpreter::limits_text());
   return kOk;
 }
 

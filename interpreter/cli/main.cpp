@@ -112,6 +112,8 @@ int main(int argc, char** argv) {
   test_command->add_option("folder", o.golden.folder, "folder with .garment files")->required();
   test_command->add_flag("--update", o.golden.update, "write the goldens anew and show the difference");
   add_common(test_command, o);
+  auto* limits_command = app.add_subcommand("limits", "what a script may cost");
+  add_common(limits_command, o);
   auto* explain_command = app.add_subcommand("explain", "the long text of a diagnostic code");
   explain_command->add_option("code", o.code, "for example G0312")->required();
   add_common(explain_command, o);
@@ -143,6 +145,7 @@ int main(int argc, char** argv) {
     terminal.result(o.textmate ? garment::service::textmate_grammar() : reference_page(app));
     return kOk;
   }
+  if (*limits_command) return show_limits(terminal);
   if (*test_command) return run_goldens(o.golden, host, terminal);
   if (*lsp_command) return serve_editor(o.project.stdlib_dir, host);
   return explain(o.code, terminal);

@@ -45,6 +45,11 @@ struct CallGuard {
   }
 }
 
+/// Value of a function whose parameters stand in `local`.
+[[gnu::noinline]] Value run_body(Program& program, const Declaration& function, Scope& local) {
+  return eval(program, function.statement->clauses[0].values[0], local);
+}
+
 [[gnu::noinline]] Value call_declared(Program& program, const Declaration& function, const Expr& expr,
                                       Scope& scope) {
   CallGuard guard(program, expr.span);
@@ -57,11 +62,6 @@ struct CallGuard {
   if (local.half_used)
     for (const Scope* at = &scope; at != nullptr; at = at->parent) at->half_used = true;
   return result;
-}
-
-/// Value of a function whose parameters stand in `local`.
-[[gnu::noinline]] Value run_body(Program& program, const Declaration& function, Scope& local) {
-  return eval(program, function.statement->clauses[0].values[0], local);
 }
 
 [[gnu::noinline]] Value edge_at(Program& program, const Expr& expr, const EdgeValue& edge, Scope& scope) {

@@ -43,6 +43,8 @@ Value text_value(Program& program, std::string text, Span span) {
   return Value{TextValue(std::make_shared<TextBody>(TextBody{std::move(text), std::move(charge)}))};
 }
 
+Value own_text(std::string text) { return Value{TextValue(std::make_shared<TextBody>(TextBody{std::move(text), {}}))}; }
+
 ListBuilder::ListBuilder(Program& program, std::size_t size, Span span) : program_(program), span_(span) {
   Charge charge =
       charge_memory(program, size > kMaxValueBytes / sizeof(Value) ? kMaxValueBytes + 1 : kOverhead + size * sizeof(Value),
@@ -65,6 +67,25 @@ Value list_value(Program& program, const std::vector<Value>& values, Span span) 
   ListBuilder list(program, values.size(), span);
   for (const Value& value : values) list.add(value);
   return list.finish();
+}
+
+bool equal_values(Program& program, const Value& a, const Value& b, Span span) {
+  count_step(program, span);
+  if (const auto *p = a.as<ListValue>(), *q = b.as<ListValue>(); p != nullptr && q != nullptr) {
+    if ((*p)->size() != (*q)->size()) return false;
+    for (std::size_t k = 0; k < (*p)->size(); ++k)
+      if (!equal_values(program, (**p)[k], (**q)[k], span)) return false;
+    return true;
+  }
+  if (const auto *p = a.as<RecordValue>(), *q = b.as<RecordValue>(); p != nullptr && q != nullptr) {
+    if ((*p)->size() != (*q)->size()) return false;
+    for (const auto& [name, value] : **p) {
+      const auto found = std::find_if((*q)->begin(), (*q)->end(), [&](const auto& field) { return field.first == name; });
+      if (found == (*q)->end() || !equal_values(program, value, found->second, span)) return false;
+    }
+    return true;
+  }
+  return same_value(a, b);
 }
 
 Value record_value(Program& program, RecordFields fields, Span span) {

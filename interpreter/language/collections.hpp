@@ -13,6 +13,9 @@ Charge charge_memory(Program& program, std::size_t bytes, Span span);
 /// Text of at most 1 MB; refuses longer ones (G0326).
 Value text_value(Program& program, std::string text, Span span);
 
+/// A short text of a thing that the garment holds anyway; not counted.
+Value own_text(std::string text);
+
 /// A list being made: memory for `size` values is counted and taken at once. No more than `size` may be added.
 class ListBuilder {
  public:
@@ -27,6 +30,9 @@ class ListBuilder {
   std::shared_ptr<ListBody> list_;
 };
 Value list_value(Program& program, const std::vector<Value>& values, Span span);
+
+/// Equality as `==` means it, lists and records value by value; each comparison is a step.
+bool equal_values(Program& program, const Value& a, const Value& b, Span span);
 
 /// A record of these fields, in this order.
 Value record_value(Program& program, RecordFields fields, Span span);

@@ -47,8 +47,7 @@ struct ConstructRecord {
   /// before it is evaluated.
   int (*reserve)(Program&, const Declaration&) = nullptr;
   /// Takes back what `evaluate` put into the garment, so that the declaration can be evaluated again (`solve`, the
-  /// prompt). Null where `evaluate` leaves nothing behind but the value, or where there is a `reserve`: then it cannot
-  /// be evaluated again.
+  /// prompt). `forget_value` where it leaves nothing but the value; null: it cannot be evaluated again.
   void (*forget)(Program&, Declaration&) = nullptr;
   /// Runs a statement that declares nothing, or what is left to do for a declaration in the order of the script.
   void (*run)(Program&, const Item&) = nullptr;

@@ -2,6 +2,7 @@
 #include "interpreter/language/acts.hpp"
 #include "interpreter/language/construct_table.hpp"
 #include "interpreter/language/declarations.hpp"
+#include "interpreter/language/dependencies.hpp"
 #include "interpreter/language/files.hpp"
 #include "interpreter/language/parameters.hpp"
 #include "interpreter/language/solving.hpp"
@@ -43,7 +44,8 @@ std::vector<ConstructRecord> basics_constructs() {
        .example = "let w = form.waist.girth / 4",
        .clauses = kDefinition,
        .in_library = true,
-       .evaluate = evaluate_let},
+       .evaluate = evaluate_let,
+       .forget = forget_value},
       {.keyword = "measure",
        .declares_name = true,
        .form = "measure NAME = VALUE",
@@ -51,6 +53,7 @@ std::vector<ConstructRecord> basics_constructs() {
        .example = "measure hem_width = length(front.hem)",
        .clauses = kDefinition,
        .evaluate = evaluate_let,
+       .forget = forget_value,
        .run = run_measure},
       {.keyword = "solve",
        .declares_name = true,
@@ -67,7 +70,8 @@ std::vector<ConstructRecord> basics_constructs() {
        .example = "fn half(x) = x / 2",
        .clauses = kDefinition,
        .in_library = true,
-       .evaluate = evaluate_function},
+       .evaluate = evaluate_function,
+       .forget = forget_value},
       {.keyword = "assert",
        .form = "assert CONDITION [\"what must hold\"]",
        .doc = "refuses the garment where the condition does not hold",

@@ -1,5 +1,6 @@
 // Fabrics, and what changes them.
 #include "interpreter/language/construct_table.hpp"
+#include "interpreter/language/dependencies.hpp"
 #include "interpreter/language/fabrics.hpp"
 #include "interpreter/language/layers.hpp"
 #include "interpreter/language/regions.hpp"
@@ -18,7 +19,8 @@ std::vector<ConstructRecord> cloth_constructs() {
                    {"pattern", "\"PICTURE\"", "a .png or .jpg printed on its face"},
                    {"repeat", "LENGTH", "width of one repeat of the picture", {}, 1, 0, "10 cm"}},
        .in_library = true,
-       .evaluate = evaluate_fabric},
+       .evaluate = evaluate_fabric,
+       .forget = forget_value},
       {.keyword = "region",
        .declares_name = true,
        .form = "region NAME in PANEL [, PANEL ...]: SHAPE",

@@ -1,5 +1,6 @@
 // Components: parts of a garment that are written once and used often.
 #include "interpreter/language/construct_table.hpp"
+#include "interpreter/language/dependencies.hpp"
 #include "interpreter/language/parts.hpp"
 
 namespace garment::interpreter::detail {
@@ -41,7 +42,8 @@ std::vector<ConstructRecord> structure_constructs() {
        .example = "port cap = upper.cap",
        .clauses = {{"=", "EDGE", "an edge, a part of one, a line or a chain"}},
        .top = false,
-       .evaluate = evaluate_port},
+       .evaluate = evaluate_port,
+       .forget = forget_value},
       {.keyword = "part",
        .declares_name = true,
        .form = "part NAME = COMPONENT(ARGUMENT, NAME: ARGUMENT, ...)",

@@ -14,6 +14,8 @@ using geometry::Point2;
 constexpr double kMeets = 1e-5;           // m, ends this near each other are one point
 constexpr double kShortest = 1e-6;        // m
 constexpr double kFarthest = 100;         // m
+constexpr std::size_t kElementSteps = 50;  // of work with one element of a curve, about
+constexpr std::size_t kMaxElements = 100'000;
 constexpr std::size_t kCurveBytes = 600;  // of one element with its arc-length table, about
 
 std::size_t size_of(const Curve& curve) {
@@ -77,7 +79,12 @@ std::optional<Curve> as_curve(const Program& program, const Value& value) {
 }
 
 Curve curve_of(Program& program, const Value& value, Span span, const std::string& what) {
-  if (const auto curve = as_curve(program, value)) return *curve;
+  if (const auto curve = as_curve(program, value)) {
+    // What is done with a curve takes time by its elements: they count as steps.
+    program.steps += kElementSteps * size_of(*curve);
+    count_step(program, span);
+    return *curve;
+  }
   const auto* edge = value.as<EdgeValue>();
   if (edge == nullptr || edge->spans.empty())
     fail(program, Message("G0306", kind_of(value) + " where " + what + " takes a curve or an edge", span)
@@ -103,6 +110,8 @@ Value curve_value(Program& program, Curve curve, Span span) {
   if (!(length <= 1e4 && curve.start().cwiseAbs().maxCoeff() <= kFarthest &&
         curve.end().cwiseAbs().maxCoeff() <= kFarthest))
     fail(program, Message("G0341", "the curve reaches further than 100 m", span).help("check the units of its points"));
+  if (size_of(curve) > kMaxElements)
+    fail(program, Message("G0341", "the curve has more than 100000 pieces", span).help("draw it with fewer points"));
   Charge charge = charge_memory(program, kCurveBytes * size_of(curve), span);
   return Value{CurveValue(std::make_shared<CurveBody>(CurveBody{std::move(curve), std::move(charge)}))};
 }
@@ -133,8 +142,6 @@ Value join_curves(Program& program, const Value& a, const Value& b, bool backwar
   if (backwards) second = second.reversed();
   const double distance = (second.start() - first.end()).norm();
   if (!(distance <= kMeets)) fail_gap(program, distance, "the first curve", "the second", span);
-  if (size_of(first) + size_of(second) > 100'000)
-    fail(program, Message("G0341", "the curve has more than 100000 pieces", span));
   return curve_value(program, geometry::chain({first, second}), span);
 }
 

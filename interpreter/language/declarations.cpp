@@ -28,7 +28,12 @@ std::vector<Value> loop_values(Program& program, const Statement& statement, Sco
     fail(program, Message("G0312", "`for` needs `in` and a range or list", statement.keyword.span));
   const Expr& expr = statement.clauses[0].values[0];
   const Value value = eval(program, expr, scope);
-  if (const auto* list = value.as<ListValue>()) return **list;
+  if (const auto* list = value.as<ListValue>()) {
+    if ((*list)->size() > kMaxStatements)
+      fail(program, Message("G0327", "the loop would run " + std::to_string((*list)->size()) + " times", expr.span)
+                        .help("at most 100000"));
+    return **list;
+  }
   const auto* range = value.as<RangeValue>();
   if (range == nullptr || !range->from.dimension.none())
     fail(program, Message("G0306", kind_of(value) + " where `for` takes a range of whole numbers or a list",

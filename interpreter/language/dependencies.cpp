@@ -19,7 +19,9 @@ void drop_unused_fabrics(Program& program, std::size_t first) {
   program.garment.fabrics.resize(used);
 }
 
-bool is_panel(const Declaration& declaration) { return declaration.statement->keyword.text == "panel"; }
+bool is_panel(const Declaration& declaration) {
+  return declaration.evaluate == nullptr && declaration.statement->keyword.text == "panel";
+}
 
 }  // namespace
 
@@ -45,12 +47,14 @@ std::vector<Declaration*> dependents_of(Program& program, const Declaration& cha
 
 bool can_be_evaluated_again(const Declaration& declaration) {
   const ConstructRecord* record = find_construct(declaration.statement->keyword.text);
-  return record != nullptr && (record->forget != nullptr || record->reserve == nullptr);
+  return declaration.evaluate != nullptr || (record != nullptr && record->forget != nullptr);
 }
+
+void forget_value(Program&, Declaration&) {}
 
 void forget(Program& program, Declaration& declaration) {
   const ConstructRecord* record = find_construct(declaration.statement->keyword.text);
-  if (record != nullptr && record->forget != nullptr) record->forget(program, declaration);
+  if (declaration.evaluate == nullptr && record != nullptr && record->forget != nullptr) record->forget(program, declaration);
   declaration.state = Declaration::State::waiting;
   declaration.value = Value{};
   declaration.needs.clear();
@@ -61,7 +65,10 @@ Trial::Trial(Program& program, Declaration& subject)
   program_.running = {&subject_};
   for (Declaration* declaration : running_) {
     if (declaration == &subject_) continue;
-    Held held{declaration, {}, std::move(declaration->value), std::move(declaration->needs)};
+    Held held;
+    held.declaration = declaration;
+    held.value = std::move(declaration->value);
+    held.needs = std::move(declaration->needs);
     if (is_panel(*declaration) && declaration->index >= 0) {
       PanelInfo& info = program_.panels[static_cast<std::size_t>(declaration->index)];
       held.panel = info;

@@ -13,6 +13,9 @@ std::vector<Declaration*> dependents_of(Program& program, const Declaration& cha
 /// True where `forget` can be called: what its evaluation left in the garment can be taken back.
 bool can_be_evaluated_again(const Declaration& declaration);
 
+/// For constructs whose evaluation leaves nothing in the garment.
+void forget_value(Program& program, Declaration& declaration);
+
 /// Back to before the evaluation: the next `force` evaluates it again. Takes back what it put into the garment.
 void forget(Program& program, Declaration& declaration);
 

@@ -311,8 +311,8 @@ void apply_given(Program& program, design::Fabric& fabric, Given& given) {
 }
 
 std::optional<Value> fabric_field(const design::Fabric& fabric, const std::string& name) {
-  if (name == "kind") return Value{fabric.kind};
-  if (name == "source") return Value{fabric.source};
+  if (name == "kind") return own_text(fabric.kind);
+  if (name == "source") return own_text(fabric.source);
   const FieldName* field = find_field(name);
   if (field == nullptr || is_fast(field->slot)) return std::nullopt;
   const SlotInfo& info = info_of(field->slot);

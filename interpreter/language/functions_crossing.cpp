@@ -94,6 +94,7 @@ std::string listed(const std::vector<geometry::Crossing>& found) {
 }
 
 geometry::Crossings checked_crossings(Call& call, const Curve& a, const Curve& b) {
+  call.program.steps += 5000;  // about what the search costs beside the elements of the curves
   geometry::Crossings crossings = geometry::crossings_of(a, b);
   if (crossings.overlap || crossings.too_many)
     fail(call.program, Message("G0345", "the two curves run along each other: they have no single points in common",

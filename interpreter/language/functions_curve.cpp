@@ -13,6 +13,7 @@ using design::Point2;
 using geometry::Curve;
 
 constexpr double kSame = 1e-6;  // m, points this near each other are one
+constexpr std::size_t kMaxPoints = 100'000;
 constexpr std::size_t kPointBytes = 1000;  // of a spline's point, its cubic and their arc-length table, about
 
 /// Both ends of a curve being drafted, which must not fall together.
@@ -32,6 +33,10 @@ Value run_line(Call& call) {
 Value run_spline(Call& call, const Point2& p, const Point2& q, std::size_t k) {
   std::size_t count = 1;
   if (const auto* list = call.arguments[k].as<ListValue>()) count = (*list)->size();
+  if (count > kMaxPoints)
+    fail(call.program, Message("G0341", "a curve through " + std::to_string(count) + " points; at most 100000 are allowed",
+                               place(call, k))
+                           .help("draw it with fewer points"));
   const Charge room = charge_memory(call.program, (count + 1) * kPointBytes, place(call, k));
   const std::vector<Point2> points = points_at(call, k);
   Point2 last = p;

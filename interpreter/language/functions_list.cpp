@@ -233,7 +233,8 @@ Value run_interpolate(Call& call) {
   std::size_t k = 1;
   while (k + 1 < rows.size() && x.value > rows[k].first.value) ++k;
   if (rows.size() == 1) return Value{rows[0].second};
-  const auto &[x0, y0] = rows[k - 1], &[x1, y1] = rows[k];
+  const auto& [x0, y0] = rows[k - 1];
+  const auto& [x1, y1] = rows[k];
   const double t = (x.value - x0.value) / (x1.value - x0.value);
   return Value{Quantity{t == 1 ? y1.value : y0.value + t * (y1.value - y0.value), rows[0].second.dimension,
                         y0.percent && y1.percent}};

@@ -20,12 +20,14 @@ Value finite(Call& call, Quantity q) {
 }
 
 Value extreme(Call& call, bool largest) {
-  std::vector<Value> values = call.arguments;
-  if (values.size() == 1)
-    if (const auto* list = values[0].as<ListValue>()) values = **list;
-  if (values.empty()) fail(call.program, Message("G0307", "the list is empty", call.expr.span));
+  const auto* list = call.arguments.size() == 1 ? call.arguments[0].as<ListValue>() : nullptr;
+  const std::vector<Value>& values = list != nullptr ? static_cast<const std::vector<Value>&>(**list) : call.arguments;
+  if (values.empty())
+    fail(call.program, Message("G0350", called(call) + " of an empty list", call.expr.span)
+                           .help("`count(list)` tells how many values a list has"));
   Quantity best;
   for (std::size_t k = 0; k < values.size(); ++k) {
+    count_step(call.program, call.expr.span);
     const auto* q = values[k].as<Quantity>();
     if (q == nullptr) fail(call.program, Message("G0306", "only numbers have an order", place(call, k)));
     if (k == 0) {

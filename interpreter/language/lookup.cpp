@@ -81,11 +81,17 @@ std::vector<std::string> visible_names(const Scope& scope) {
   return names;
 }
 
+// Names that are compared for a hint, over all messages: a broken script of many names must not take minutes.
+constexpr std::size_t kMostComparisons = 2'000'000;
+
 void fail_unknown_name(Program& program, const std::string& name, Span span, Scope& scope) {
   if (scope.module != nullptr && scope.module->has_broken)
     throw Stop{};  // a broken line may have declared it
   Message message("G0301", "there is nothing named `" + name + "`", span);
-  std::string hint = did_you_mean(name, visible_names(scope));
+  std::string hint;
+  if (const std::vector<std::string> names = visible_names(scope);
+      names.size() * (program.diagnostics.size() + 1) <= kMostComparisons)
+    hint = did_you_mean(name, names);
   if (hint.empty() && find_unit(name)) hint = "`" + name + "` is a unit: write it after a number";
   if (hint.empty() && (name == "fabrics" || name == "bodies")) hint = "write `use " + name + "` at the top";
   fail(program, message.help(hint));

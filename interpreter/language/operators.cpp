@@ -84,7 +84,7 @@ Value compare(Program& program, const Expr& expr, const Value& a, const Value& b
   }
   if (op == "==" || op == "is" || op == "!=") {
     if (a.data.index() != b.data.index()) fail_kinds(program, expr, a, b);
-    return Value{same_value(a, b) == (op != "!=")};
+    return Value{equal_values(program, a, b, expr.span) == (op != "!=")};
   }
   fail_kinds(program, expr, a, b);
 }

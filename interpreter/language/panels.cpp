@@ -232,6 +232,12 @@ bool names_back(const Statement& statement) {
 }  // namespace
 
 int reserve_panel(Program& program, const Declaration& declaration) {
+  if (program.panels.size() >= kMaxPanels) {
+    report(program, Message("G1604", "the garment has more than " + std::to_string(kMaxPanels) + " panels",
+                            declaration.statement->keyword.span)
+                        .help("make fewer pieces: a loop probably runs further than meant"));
+    throw Exhausted{};
+  }
   PanelInfo& info = program.panels.emplace_back();
   info.panel.name = declaration.name;
   info.part = declaration.scope->part;
@@ -252,6 +258,7 @@ void forget_panel(Program& program, Declaration& declaration) {
   PanelInfo blank;
   blank.panel.name = declaration.name;
   blank.on_back = info.on_back;
+  blank.part = info.part;
   info = std::move(blank);
   program.recipes.erase(declaration.index);
   std::erase_if(program.panel_places, [&](const Item& item) { return item.declaration == &declaration; });

@@ -28,7 +28,10 @@ Value eval_given(Program& program, const std::string& name, const std::string& t
 
 std::string choices(const std::vector<Value>& values) {
   std::string text;
-  for (const Value& value : values) text += (text.empty() ? "" : ", ") + show(value);
+  for (const Value& value : values) {
+    if (text.size() > 200) return text + ", ...";
+    text += (text.empty() ? "" : ", ") + show(value);
+  }
   return text;
 }
 
@@ -48,9 +51,9 @@ void check_allowed(Program& program, const std::string& name, const Value& value
     fail(program,
          Message("G0306", kind_of(allowed) + " where `in` takes a range or a list of choices", allowed_span));
   for (const Value& choice : **list)
-    if (same_value(choice, value)) return;
+    if (equal_values(program, choice, value, span)) return;
   std::vector<std::string> names;
-  for (const Value& choice : **list) names.push_back(show(choice));
+  for (std::size_t k = 0; k < (*list)->size() && k < 1000; ++k) names.push_back(show((**list)[k]));
   const std::string hint = did_you_mean(show(value), names);
   fail(program,
        Message("G0310", "`" + name + "` is " + show(value) + "; the choices are " + choices(**list), span)

@@ -166,7 +166,7 @@ struct Program {
   Module* main = nullptr;
 
   design::Garment garment;
-  std::vector<PanelInfo> panels;
+  std::deque<PanelInfo> panels;  ///< stay where they are when parts bring in more
   std::vector<SeamInfo> seams;
   std::map<int, std::shared_ptr<const Recipe>> recipes;  ///< by panel
   std::vector<Item> panel_places;                        ///< `place` inside a panel's block

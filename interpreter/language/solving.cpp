@@ -12,6 +12,7 @@
 namespace garment::interpreter {
 namespace {
 
+constexpr std::size_t kTrialSteps = 5000;  // drawing panels again takes longer than the steps of their values
 constexpr int kScan = 16;             // parts of the range that are looked at where its ends agree in sign
 constexpr double kHolds = 1e-9;       // relative difference that counts as equal at an end of the range
 constexpr double kNoJump = 1e-6;      // relative difference that is left where the sides agree
@@ -122,6 +123,7 @@ class Solver {
 
   Sides at(double x) {
     ++trials_;
+    program_.steps += kTrialSteps;
     count_step(program_, condition_->span);
     grammar::Diagnostics kept = std::move(program_.diagnostics);
     program_.diagnostics.clear();

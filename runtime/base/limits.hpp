@@ -19,6 +19,6 @@ inline constexpr int kMaxValueDepth = 200;                          ///< lists a
 inline constexpr std::size_t kMaxText = 1u << 20;                   ///< bytes of one text
 inline constexpr std::size_t kMaxLinks = 1000;                      ///< of a chain of edges
 inline constexpr int kMaxSolveDepth = 3;                            ///< solves that need each other
-inline constexpr std::uint64_t kMaxMeshBytes = 256u << 20;          ///< of one mesh file
+inline constexpr std::uint64_t kMaxMeshBytes = 200'000'000;         ///< of one mesh file
 
 }  // namespace garment

@@ -5,11 +5,12 @@
 #include <string_view>
 
 #include "runtime/base/finding.hpp"
+#include "runtime/base/limits.hpp"
 #include "runtime/body/body.hpp"
 
 namespace garment::body {
 
-inline constexpr std::uint64_t kMaxObjBytes = 200'000'000;
+inline constexpr std::uint64_t kMaxObjBytes = kMaxMeshBytes;
 inline constexpr std::size_t kMaxObjTriangles = 5'000'000;
 inline constexpr double kMaxCoordinate = 1e4;  ///< m, after scaling
 

@@ -19,7 +19,8 @@ constexpr double kSame = 1e-6;         // m
 constexpr double kSameTouch = 1e-4;    // m, of points where the curves are nearly parallel
 constexpr double kParallel = 2e-3;     // sine of the angle
 constexpr std::size_t kMaxPairs = 2'000'000;
-constexpr std::size_t kMaxGuesses = 20'000;
+constexpr std::size_t kMostStretches = 64;  // between neighbouring points that are looked at
+constexpr std::size_t kMaxGuesses = 4'000;
 
 double cross(const Point2& a, const Point2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
@@ -69,20 +70,25 @@ struct Guess {
   double s = 0, t = 0;
 };
 
-/// Fractions along two segments where they are nearest.
-std::pair<double, double> nearest_fractions(const Point2& a0, const Point2& a1, const Point2& b0, const Point2& b1) {
+/// Fractions along two segments where they cross, or come nearer than `margin` at an end of one of them. Of segments
+/// that run along each other there are several.
+std::vector<std::pair<double, double>> near_fractions(const Point2& a0, const Point2& a1, const Point2& b0,
+                                                      const Point2& b1, double margin) {
   const Point2 u = a1 - a0, v = b1 - b0;
-  const double det = cross(u, v);
-  if (std::fabs(det) > 1e-12 * u.norm() * v.norm()) {
+  const double det = cross(u, v), sizes = u.norm() * v.norm();
+  if (std::fabs(det) > 1e-12 * sizes) {
     const double x = cross(b0 - a0, v) / det, y = cross(b0 - a0, u) / det;
-    if (x >= 0 && x <= 1 && y >= 0 && y <= 1) return {x, y};
+    if (x >= 0 && x <= 1 && y >= 0 && y <= 1) return {{x, y}};
   }
-  // Segments that do not cross are nearest at an end of one of them.
-  std::pair<double, double> best{0, 0};
-  double least = std::numeric_limits<double>::infinity();
+  std::vector<std::pair<double, double>> near;
+  double least = margin * margin;
+  const bool parallel = std::fabs(det) <= kParallel * sizes;
   auto offer = [&](double x, double y) {
     const double d = (a0 + x * u - b0 - y * v).squaredNorm();
-    if (d < least) least = d, best = {x, y};
+    if (!(d <= (parallel ? margin * margin : least))) return;
+    if (!parallel) near.clear();
+    least = d;
+    near.emplace_back(x, y);
   };
   auto onto = [](const Point2& p, const Point2& from, const Point2& way) {
     const double square = way.squaredNorm();
@@ -92,7 +98,7 @@ std::pair<double, double> nearest_fractions(const Point2& a0, const Point2& a1, 
     offer(end, onto(a0 + end * u, b0, v));
     offer(onto(b0 + end * v, a0, u), end);
   }
-  return best;
+  return near;
 }
 
 /// Calls `take` for pairs of leaves that may be nearer than `margin`; false where there are too many.
@@ -189,7 +195,8 @@ void tidy(const Curve& a, const Curve& b, std::vector<Crossing>& found) {
 
 /// Curves that run along each other: between two neighbouring points they do not part.
 bool run_together(const Curve& a, const Curve& b, const std::vector<Crossing>& found) {
-  for (std::size_t k = 1; k < found.size(); ++k) {
+  const std::size_t last = std::min(found.size(), kMostStretches);
+  for (std::size_t k = 1; k < last; ++k) {
     const double from = found[k - 1].on_a, to = found[k].on_a;
     if (to - from < kSame) continue;
     bool together = true;
@@ -210,11 +217,10 @@ Crossings crossings_of(const Curve& a, const Curve& b) {
   std::vector<Guess> guesses;
   const double margin = 4 * kChord;
   const bool done = for_near_pairs(left, right, margin, [&](std::size_t i, std::size_t j) {
-    const auto [x, y] = nearest_fractions(left.point(i), left.point(i + 1), right.point(j), right.point(j + 1));
-    const Point2 p = left.point(i) + x * (left.point(i + 1) - left.point(i)),
-                 q = right.point(j) + y * (right.point(j + 1) - right.point(j));
-    if ((p - q).norm() > margin) return true;
-    guesses.push_back({left.at(i) + x * (left.at(i + 1) - left.at(i)), right.at(j) + y * (right.at(j + 1) - right.at(j))});
+    for (const auto& [x, y] :
+         near_fractions(left.point(i), left.point(i + 1), right.point(j), right.point(j + 1), margin))
+      guesses.push_back(
+          {left.at(i) + x * (left.at(i + 1) - left.at(i)), right.at(j) + y * (right.at(j + 1) - right.at(j))});
     return guesses.size() <= kMaxGuesses;
   });
   if (!done) {

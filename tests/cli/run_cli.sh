@@ -269,6 +269,113 @@ run 1 import broken.json -o broken.garment
 complains "error[G0940]"
 absent broken.garment
 
+# ---- limits
+run 0 limits
+says "50,000,000"
+says "G1601"
+run 0 limits --json
+is_json out.txt
+
+# ---- what a `solve` found
+cat >solved.garment <<'END'
+use fabrics
+solve wide in 5 cm .. 40 cm so wide * wide == 4 * wide * 5 cm
+measure double_wide = 2 * wide
+panel cloth of fabrics.satin {
+  outline from (0, 0) {
+    edge bottom to (wide, 0) free
+    edge right_side to (wide, 10 cm) free
+    edge top to (0, 10 cm) free
+    close left_side free
+  }
+}
+place cloth flat at (0, 1 m, 0)
+END
+run 0 check solved.garment --json
+is_json out.txt
+says '"residual"'
+says '"shown": "20 cm"'
+says '"shown": "40 cm"'
+
+# ---- scripts read below their folder and write below the output folder, whatever they try
+mkdir -p jail/inner secret granted
+printf 'let hidden = 1\n' >secret/library.garment
+printf 'let open_to_all = 1\n' >jail/inner/library.garment
+ln -s ../secret/library.garment jail/link.garment
+ln -s ../secret jail/folder
+mkfifo jail/pipe.garment
+for name in '../secret/library.garment' "$work/secret/library.garment" link.garment folder/library.garment \
+  /etc/passwd /proc/self/environ inner/../../secret/library.garment; do
+  printf 'use "%s" as other\n' "$name" >jail/try.garment
+  run 1 check jail/try.garment
+  complains "error[G0328]"
+  ok
+  grep -q hidden err.txt && fail "the message shows what the file holds"
+done
+printf 'use "pipe.garment" as other\n' >jail/try.garment
+run 1 check jail/try.garment
+complains "is not a regular file"
+printf 'use "inner/library.garment" as other\nlet a = other.open_to_all\n' >jail/try.garment
+run 1 check jail/try.garment # no panels
+complains "G0452"
+printf 'use "link.garment" as other\nlet a = other.hidden\n' >jail/try.garment
+run 1 check jail/try.garment --allow-read secret
+complains "G0452"
+ok
+grep -q G0328 err.txt && fail "--allow-read grants nothing"
+for name in '../secret/form.obj' /proc/self/environ /dev/zero; do
+  sed "s|^drape.*|body other = mesh(\"$name\")|; /^expect/d" square.garment >jail/try.garment
+  run 1 check jail/try.garment
+  complains "error[G0328]"
+done
+ln -s /proc/self/environ jail/form.obj
+sed 's|^drape.*|body other = mesh("form.obj")|; /^expect/d' square.garment >jail/try.garment
+run 1 check jail/try.garment
+complains "error[G0701]"
+complains "--allow-read"
+
+sed 's/^expect.*/save "..\/secret\/out.obj"/' square.garment >jail/try.garment
+run 1 run jail/try.garment --no-pictures -o written
+complains "error[G0328]"
+absent secret/out.obj
+mkdir -p written
+ln -s ../secret written/aside
+ln -s ../secret/linked.obj written/linked.obj
+printf 'kept\n' >secret/linked.obj
+sed 's/^expect.*/save "aside\/out.obj"/' square.garment >jail/try.garment
+run 3 run jail/try.garment --no-pictures -o written
+complains "error[G0902]"
+absent secret/out.obj
+sed 's/^expect.*/save "linked.obj", "made\/deeper.obj"/' square.garment >jail/try.garment
+run 0 run jail/try.garment --no-pictures -o written
+exists written/made/deeper.obj
+no_leftovers written
+ok
+[ "$(cat secret/linked.obj)" = kept ] || fail "a link in the output folder was followed"
+sed "s|^expect.*|save \"$work/granted/out.obj\"|" square.garment >jail/try.garment
+run 1 run jail/try.garment --no-pictures -o written
+run 0 run jail/try.garment --no-pictures -o written --allow-write granted
+exists granted/out.obj
+
+# ---- control characters of a script do not reach the terminal
+printf 'assert false "\033[2Jgone\007"\n' >escapes.garment
+run 1 check escapes.garment
+ok
+grep -q "$(printf '\033')" err.txt && fail "an escape of the script reaches the terminal"
+
+# ---- scripts that would take all time or memory
+printf 'panel sail of fabrics.satin {\n  outline circle((0, 0), 99 m) free\n  resolution 1 mm\n}\nuse fabrics\nplace sail flat at (0, 1 m, 0)\n' >sail.garment
+run 1 model sail.garment
+complains "error[G0452]"
+head -c 5000000 /dev/zero | tr '\0' '#' >large.garment
+run 3 check large.garment
+complains "error[G0901]"
+head -c 200000001 /dev/zero | tr '\0' '#' >huge.obj
+sed 's|^drape.*|body other = mesh("huge.obj")|; /^expect/d' square.garment >huge.garment
+run 1 check huge.garment
+complains "error[G0701]"
+rm huge.obj
+
 # ---- test
 mkdir -p goldens/check nothing
 printf '#! ok\nlet w = 3 cm\n' >goldens/check/fine.garment
