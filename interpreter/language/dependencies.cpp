@@ -71,7 +71,7 @@ Trial::Trial(Program& program, Declaration& subject)
     held.needs = std::move(declaration->needs);
     if (is_panel(*declaration) && declaration->index >= 0) {
       PanelInfo& info = program_.panels[static_cast<std::size_t>(declaration->index)];
-      held.panel = info;
+      held.panel = std::move(info);  // moved, not copied: who draws it holds references to its edges
       for (const Item& item : program_.panel_places)
         if (item.declaration == declaration) held.places.push_back(item);
       forget_panel(program_, *declaration);

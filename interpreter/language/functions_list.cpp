@@ -40,7 +40,7 @@ Value run_sum(Call& call) {
   if (list.empty()) return number_value(0);
   Value total = list.front();
   if (total.as<Quantity>() == nullptr && total.as<PointValue>() == nullptr)
-    fail(call.program, Message("G0306", "`sum` of a list of " + kind_of(total) + " values", place(call, 0))
+    fail(call.program, Message("G0306", "`sum` of a list that holds " + kind_of(total), place(call, 0))
                            .help("numbers and points have a sum; edges and lists are joined with `+`"));
   for (std::size_t k = 1; k < list.size(); ++k) {
     count_step(call.program, call.expr.span);
@@ -73,7 +73,9 @@ Value call_with(Call& call, const Value& function, const Value& value) {
 /// By value, or by what a function makes of each. Equal ones keep their order.
 Value run_sort(Call& call) {
   const ListBody& list = list_at(call, 0);
-  ListBuilder room(call.program, 2 * list.size(), call.expr.span);  // counted while it is sorted
+  // Counted while it is sorted: the keys, and as much again for the sort.
+  const Charge room =
+      charge_memory(call.program, 2 * list.size() * sizeof(std::pair<Value, std::size_t>), call.expr.span);
   std::vector<std::pair<Value, std::size_t>> keys;
   keys.reserve(list.size());
   for (std::size_t k = 0; k < list.size(); ++k)
