@@ -20,7 +20,8 @@ void drop_unused_fabrics(Program& program, std::size_t first) {
 }
 
 bool is_panel(const Declaration& declaration) {
-  return declaration.evaluate == nullptr && declaration.statement->keyword.text == "panel";
+  const std::string& keyword = declaration.statement->keyword.text;
+  return declaration.evaluate == nullptr && (keyword == "panel" || keyword == "pair");
 }
 
 }  // namespace
