@@ -9,11 +9,13 @@
 namespace garment::interpreter {
 namespace {
 
-/// Takes away fabrics from `first` on that no panel is cut from, as far as none behind them is used.
+/// Takes away fabrics from `first` on that neither a panel nor a layer is cut from, as far as none behind them is used.
 void drop_unused_fabrics(Program& program, std::size_t first) {
   std::size_t used = first;
   for (const PanelInfo& info : program.panels)
     used = std::max(used, static_cast<std::size_t>(info.panel.fabric) + 1);
+  for (const design::Layer& layer : program.garment.layers)
+    used = std::max(used, static_cast<std::size_t>(layer.fabric) + 1);
   if (used >= program.garment.fabrics.size()) return;
   std::erase_if(program.fabric_index, [&](const auto& entry) { return static_cast<std::size_t>(entry.second) >= used; });
   program.garment.fabrics.resize(used);

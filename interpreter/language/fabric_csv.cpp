@@ -82,7 +82,7 @@ class Table {
   }
 
   void read_lines() {
-    const std::string file = checked_path(program_, path_, file_place_);
+    const std::string file = readable_path(program_, path_, file_place_);
     const std::string& folder = program_.options.script_dir;
     const HostResult<std::string> text =
         program_.host.read_file(folder.empty() || file[0] == '/' ? file : folder + '/' + file, kMaxTable);
