@@ -29,7 +29,7 @@ bool ParseState::follows_from_earlier(const SyntaxError& error) const {
   };
   if (std::any_of(diagnostics_.begin(), diagnostics_.end(), stands_at)) return true;
   if (d.code == "G0205") return fresh_;
-  if (d.code == "G0209" && statements_.empty() && indent_of(place) > 0) return fresh_;
+  if ((d.code == "G0208" || d.code == "G0209") && statements_.empty() && indent_of(place) > 0) return fresh_;
   if (d.code == "G0202") return !is_word_start(at(place)) && only_blanks_since_broken(place);
   // A block with a mistake inside: its } may be what was mistaken.
   if (d.code == "G0204")

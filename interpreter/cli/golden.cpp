@@ -3,17 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
+#include <atomic>
 #include <filesystem>
-#include <optional>
+#include <thread>
 #include <vector>
 
+#include "interpreter/cli/golden_compare.hpp"
+#include "interpreter/cli/golden_junit.hpp"
 #include "interpreter/cli/project.hpp"
-#include "interpreter/language/construct_table.hpp"
-#include "interpreter/language/interpret.hpp"
-#include "runtime/model/dump.hpp"
-#include "runtime/modeller/modeller.hpp"
-#include "runtime/modeller/unmodelled.hpp"
 
 namespace garment::cli {
 namespace {
@@ -21,253 +18,231 @@ namespace {
 namespace fs = std::filesystem;
 constexpr std::uint64_t kMaxBytes = 4u << 20;
 constexpr std::size_t kMaxGolden = 20u << 10;
+constexpr std::string_view kToleranceLine = "#! tolerance:";
 
-enum class Stage { parse, check, model };
-
-Stage stage_of(const fs::path& path) {
-  for (const fs::path& part : path) {
-    if (part == "parse") return Stage::parse;
-    if (part == "model") return Stage::model;
-  }
-  return Stage::check;
+const char* stage_name(GoldenStage stage) {
+  constexpr const char* kNames[] = {"parse", "format", "check", "model", "run"};
+  return kNames[static_cast<int>(stage)];
 }
 
-/// What a run of one script gave.
-struct Outcome {
-  grammar::Sources sources;
-  grammar::Diagnostics diagnostics;
-  std::string text;  ///< what a .expected file holds
-};
-
-Outcome run_script(const std::string& path, const std::string& text, Stage stage,
-                   const std::string& stdlib_dir, Host& host) {
-  Outcome o;
-  grammar::SourceId id = o.sources.add(fs::path(path).filename().string(), text);
-  if (stage == Stage::parse) {
-    grammar::ParseResult parsed = grammar::parse(o.sources, id, interpreter::vocabulary());
-    o.diagnostics = std::move(parsed.diagnostics);
-    o.text = grammar::to_outline(parsed.script);
-  } else {
-    interpreter::InterpretOptions options;
-    options.warn_unused = true;
-    options.stdlib_dir = stdlib_dir;
-    options.script_dir = folder_of(path);
-    interpreter::Interpretation result = interpreter::interpret(o.sources, id, host, options);
-    o.diagnostics = result.diagnostics;
-    if (result.ok()) {
-      modeller::ModelResult built;
-      if (stage == Stage::check)
-        built.findings = modeller::find_unmodelled(result.garment, Severity::warning);
-      if (built.findings.empty()) built = modeller::build_model(result.garment, result.bodies);
-      for (grammar::Diagnostic& d : interpreter::to_diagnostics(built.findings, result.origins))
-        o.diagnostics.push_back(std::move(d));
-      if (stage == Stage::model && built.model) o.text = model::summary_text(*built.model);
-    }
-  }
-  for (const grammar::Diagnostic& d : o.diagnostics) o.text += grammar::render(d, o.sources, false);
-  return o;
+/// By the nearest folder on the way from `root`, `root` included; nothing where none has the name of a stage.
+std::optional<GoldenStage> stage_of_folder(const fs::path& script, const fs::path& root) {
+  fs::path whole = fs::absolute(root).lexically_normal();
+  if (!whole.has_filename()) whole = whole.parent_path();  // DIR/
+  std::optional<GoldenStage> stage = golden_stage(whole.filename().string());
+  for (const fs::path& part : script.parent_path().lexically_relative(root))
+    if (const auto named = golden_stage(part.string())) stage = named;
+  return stage;
 }
 
-/// One `#!` comment.
-struct Inline {
-  std::size_t line = 0;  ///< of the code it speaks of, from 1
-  std::string severity, code, part;
-  std::uint32_t first = 0, last = 0;  ///< columns; 0: of the script as a whole, no place
-};
+GoldenStage stage_of(const fs::path& path, const std::string& script, const Expectations& expected,
+                     const GoldenOptions& options) {
+  GoldenStage stage = GoldenStage::check;
+  if (expected.stage)
+    stage = *expected.stage;
+  else if (const auto named = stage_of_folder(path, options.folder))
+    stage = *named;
+  else if (has_drape(script))
+    stage = GoldenStage::run;
+  return stage == GoldenStage::run && !options.drape ? GoldenStage::check : stage;
+}
 
-struct InlineExpectations {
-  std::vector<Inline> wanted;
-  bool any = false;
-  std::string malformed;
-};
-
-bool take_number(std::string_view& s, std::uint32_t& value) {
-  auto [end, error] = std::from_chars(s.data(), s.data() + s.size(), value);
-  if (error != std::errc{}) return false;
-  s.remove_prefix(static_cast<std::size_t>(end - s.data()));
+/// `*` in `pattern` stands for anything.
+bool matches(std::string_view text, std::string_view pattern) {
+  std::size_t at = 0;
+  while (!pattern.empty()) {
+    const std::size_t star = pattern.find('*');
+    const std::string_view piece = pattern.substr(0, star);
+    at = text.find(piece, at);
+    if (at == std::string_view::npos) return false;
+    at += piece.size();
+    pattern = star == std::string_view::npos ? std::string_view{} : pattern.substr(star + 1);
+  }
   return true;
 }
 
-std::optional<Inline> read_inline(std::string_view s) {
-  Inline e;
-  auto skip_blanks = [&s] {
-    while (!s.empty() && s.front() == ' ') s.remove_prefix(1);
-  };
-  skip_blanks();
-  std::size_t open = s.find('['), close = s.find(']');
-  if (open == std::string_view::npos || close == std::string_view::npos || close < open) return std::nullopt;
-  e.severity = s.substr(0, open);
-  if (e.severity != "error" && e.severity != "warning" && e.severity != "note") return std::nullopt;
-  e.code = s.substr(open + 1, close - open - 1);
-  s.remove_prefix(close + 1);
-  skip_blanks();
-  if (!s.empty() && s.front() != '"') {
-    if (!take_number(s, e.first) || e.first == 0 || s.empty() || s.front() != '-') return std::nullopt;
-    s.remove_prefix(1);
-    if (!take_number(s, e.last)) return std::nullopt;
-    skip_blanks();
-  }
-  if (s.size() < 3 || s.front() != '"' || s.back() != '"') return std::nullopt;
-  e.part = s.substr(1, s.size() - 2);
-  return e;
-}
-
-InlineExpectations read_inlines(const std::string& text) {
-  InlineExpectations out;
-  std::vector<Inline> open;
-  std::size_t line = 0, begin = 0;
-  while (begin < text.size()) {
-    std::size_t end = std::min(text.find('\n', begin), text.size());
-    std::string_view row(text.data() + begin, end - begin);
-    begin = end + 1;
-    ++line;
-    std::size_t at = row.find_first_not_of(" \t");
-    if (at != std::string_view::npos && row.substr(at, 2) == "#!") {
-      out.any = true;
-      row.remove_prefix(at + 2);
-      while (!row.empty() && (row.back() == ' ' || row.back() == '\r')) row.remove_suffix(1);
-      if (row == " ok") continue;
-      if (auto e = read_inline(row))
-        open.push_back(*e);
-      else
-        out.malformed = fmt::format("line {}: cannot read `#!{}`", line, row);
-      continue;
-    }
-    for (Inline& e : open) {
-      e.line = line;
-      out.wanted.push_back(e);
-    }
-    open.clear();
-  }
-  for (Inline& e : open) {  // below the last line: the end of the text
-    e.line = line + 1;
-    out.wanted.push_back(e);
-  }
-  return out;
-}
-
-bool is_expected(const Inline& e, const grammar::Diagnostic& d, const grammar::Sources& sources) {
-  const char* severity = d.severity == Severity::error     ? "error"
-                         : d.severity == Severity::warning ? "warning"
-                                                           : "note";
-  if (d.code != e.code || e.severity != severity || d.message.find(e.part) == std::string::npos) return false;
-  if (e.first == 0 || d.labels.empty()) return e.first == 0 && d.labels.empty();
-  grammar::Place a = sources.place(d.labels[0].span.source, d.labels[0].span.begin);
-  grammar::Place b = sources.place(d.labels[0].span.source, d.labels[0].span.end);
-  return a.line == e.line && a.column == e.first && (b.line != a.line || b.column == e.last + 1);
-}
-
-/// Differences between what was expected inline and what came; empty when all is well.
-std::string compare_inline(const InlineExpectations& inlines, const Outcome& o) {
-  if (!inlines.malformed.empty()) return inlines.malformed + "\n";
-  std::string differences;
-  std::vector<bool> used(o.diagnostics.size(), false);
-  for (const Inline& e : inlines.wanted) {
-    bool found = false;
-    for (std::size_t i = 0; i < o.diagnostics.size() && !found; ++i) {
-      if (used[i] || !is_expected(e, o.diagnostics[i], o.sources)) continue;
-      found = used[i] = true;
-    }
-    if (!found)
-      differences += fmt::format("  missing: line {} {}[{}] {}-{} \"{}\"\n", e.line, e.severity, e.code,
-                                 e.first, e.last, e.part);
-  }
-  for (std::size_t i = 0; i < o.diagnostics.size(); ++i)
-    if (!used[i]) differences += "  not expected:\n" + grammar::render(o.diagnostics[i], o.sources, false);
-  return differences;
-}
-
-/// Lines that differ, with - for the golden and + for what came.
-std::string line_difference(const std::string& golden, const std::string& now) {
-  auto split = [](const std::string& s) {
-    std::vector<std::string> lines;
-    std::size_t begin = 0;
-    while (begin < s.size()) {
-      std::size_t end = std::min(s.find('\n', begin), s.size());
-      lines.push_back(s.substr(begin, end - begin));
-      begin = end + 1;
-    }
-    return lines;
-  };
-  std::vector<std::string> a = split(golden), b = split(now);
-  std::size_t head = 0, tail = 0;
-  while (head < a.size() && head < b.size() && a[head] == b[head]) ++head;
-  while (tail + head < a.size() && tail + head < b.size() && a[a.size() - 1 - tail] == b[b.size() - 1 - tail])
-    ++tail;
-  std::string out;
-  for (std::size_t i = head; i + tail < a.size(); ++i) out += "  - " + a[i] + "\n";
-  for (std::size_t i = head; i + tail < b.size(); ++i) out += "  + " + b[i] + "\n";
-  return out;
-}
-
-struct Tally {
-  int passed = 0, failed = 0, updated = 0;
+struct Result {
+  GoldenVerdict verdict;
+  std::string told;  ///< what is printed, failure or not
+  bool updated = false;
+  double drape_seconds = 0;
 };
 
-void test_script(const fs::path& path, const GoldenOptions& options, Host& host, Terminal& terminal,
-                 Tally& tally) {
-  auto fail = [&](const std::string& why) {
-    terminal.result(fmt::format("FAILED {}\n{}", path.string(), why));
-    ++tally.failed;
-  };
-  HostResult<std::string> text = host.read_file(path.string(), kMaxBytes);
-  if (!text) return fail("  cannot be read: " + text.error.message);
-  Outcome o = run_script(path.string(), *text.value, stage_of(path), options.stdlib_dir, host);
-  InlineExpectations inlines = read_inlines(*text.value);
-  if (inlines.any) {
-    std::string differences = compare_inline(inlines, o);
-    if (!differences.empty()) return fail(differences);
-    ++tally.passed;
-    return;
-  }
-  fs::path golden_path = path;
-  golden_path.replace_extension(".expected");
-  HostResult<std::string> golden = host.read_file(golden_path.string(), kMaxGolden);
-  if (golden && *golden.value == o.text) {
-    ++tally.passed;
-    return;
-  }
-  std::string difference = line_difference(golden ? *golden.value : "", o.text);
+/// The golden's own tolerance line, taken off `text`.
+std::string take_tolerance_line(std::string& text, std::optional<GoldenTolerance>& tolerance, std::string& malformed) {
+  if (text.compare(0, kToleranceLine.size(), kToleranceLine) != 0) return "";
+  const std::size_t end = std::min(text.find('\n'), text.size() - 1) + 1;
+  const std::string line = text.substr(0, end);
+  std::string value = line.substr(kToleranceLine.size());
+  value.erase(value.find_last_not_of(" \r\n") + 1);
+  value.erase(0, value.find_first_not_of(' '));
+  tolerance = golden_tolerance(value);
+  if (!tolerance) malformed = fmt::format("  its .expected file: `{}` is no tolerance\n", value);
+  text.erase(0, end);
+  return line;
+}
+
+/// Compares with the .expected file, or writes it.
+std::string compare_golden(const fs::path& script, const Expectations& expected, const GoldenOutcome& outcome,
+                           const GoldenOptions& options, Host& host, Result& result) {
+  fs::path path = script;
+  path.replace_extension(".expected");
+  HostResult<std::string> golden = host.read_file(path.string(), kMaxGolden);
+  const bool states_itself = expected.about_diagnostics || !expected.values.empty() || outcome.n_expects > 0;
+  if (!golden && !fs::exists(path) && states_itself) return "";
+  std::optional<GoldenTolerance> tolerance = expected.tolerance;
+  std::string text = golden ? *golden.value : "", malformed;
+  const std::string head = take_tolerance_line(text, tolerance, malformed);
+  if (!malformed.empty()) return malformed;
+  if (golden && text == outcome.text) return "";
+  const std::string difference = compare_texts(text, outcome.text, tolerance);
+  if (golden && difference.empty()) return "";
   if (!options.update)
-    return fail((golden ? "" : "  has neither `#!` comments nor a .expected file; --update writes one\n") +
-                difference);
-  if (o.text.size() > kMaxGolden) return fail("  its output is over 20 KB: expect it inline instead");
-  terminal.result(fmt::format("updated {}\n{}", golden_path.string(), difference));
-  if (!host.write_file(golden_path.string(), o.text)) return fail("  the golden could not be written");
-  ++tally.updated;
+    return (golden ? "" : "  has neither `#!` comments nor a .expected file; --update writes one\n") + difference;
+  if (outcome.text.size() > kMaxGolden) return "  its output is over 20 KB: expect it inline instead\n";
+  if (!host.write_file(path.string(), head + outcome.text)) return "  the golden could not be written\n";
+  result.told = fmt::format("updated {}\n{}", path.string(), difference);
+  result.updated = true;
+  return "";
+}
+
+/// Errors of a script that is run and says nothing about diagnostics.
+std::string unforeseen_errors(const Expectations& expected, const GoldenOutcome& outcome) {
+  std::string text;
+  if (expected.about_diagnostics || (expected.values.empty() && outcome.n_expects == 0)) return text;
+  for (const grammar::Diagnostic& d : outcome.diagnostics)
+    if (d.severity == Severity::error) text += grammar::render(d, outcome.sources, false);
+  return text;
+}
+
+Result test_script(const fs::path& path, const GoldenOptions& options, Host& host) {
+  Result result;
+  result.verdict.path = path.string();
+  const double begun = host.seconds();
+  std::string& failure = result.verdict.failure;
+  const HostResult<std::string> script = host.read_file(path.string(), kMaxBytes);
+  if (!script) {
+    failure = "  cannot be read: " + script.error.message + "\n";
+  } else {
+    const Expectations expected = read_expectations(*script.value);
+    if (!expected.malformed.empty()) {
+      failure = "  " + expected.malformed + "\n";
+    } else {
+      const GoldenStage stage = stage_of(path, *script.value, expected, options);
+      const GoldenOutcome outcome = run_golden(path.string(), *script.value, stage, options.stdlib_dir, host);
+      result.drape_seconds = outcome.drape_seconds;
+      if (expected.about_diagnostics) failure += compare_diagnostics(expected, outcome);
+      failure += compare_values(expected, outcome);
+      failure += unforeseen_errors(expected, outcome);
+      const bool skipped_drape = !options.drape && has_drape(*script.value) && !expected.stage;
+      if (!skipped_drape || stage != GoldenStage::check || stage_of_folder(path, options.folder) == stage)
+        failure += compare_golden(path, expected, outcome, options, host, result);
+    }
+  }
+  result.verdict.seconds = host.seconds() - begun;
+  if (!failure.empty()) result.told += fmt::format("FAILED {}\n{}", path.string(), failure);
+  return result;
+}
+
+struct Found {
+  std::vector<fs::path> scripts, goldens;
+  std::error_code error;
+};
+
+Found find_below(const GoldenOptions& options) {
+  Found found;
+  fs::recursive_directory_iterator it(options.folder, found.error), end;
+  for (; !found.error && it != end; it.increment(found.error)) {
+    if (!matches(it->path().string(), options.filter)) continue;
+    if (it->path().extension() == ".garment") found.scripts.push_back(it->path());
+    if (it->path().extension() == ".expected") found.goldens.push_back(it->path());
+  }
+  std::sort(found.scripts.begin(), found.scripts.end());
+  std::sort(found.goldens.begin(), found.goldens.end());
+  return found;
+}
+
+/// Tests all scripts, `jobs` at a time; the results are in the order of the scripts.
+std::vector<Result> test_all(const std::vector<fs::path>& scripts, const GoldenOptions& options, Host& host) {
+  std::vector<Result> results(scripts.size());
+  std::atomic<std::size_t> next{0};
+  const auto work = [&] {
+    for (std::size_t k = next++; k < scripts.size() && !host.interrupted(); k = next++)
+      results[k] = test_script(scripts[k], options, host);
+  };
+  std::vector<std::thread> workers;
+  for (int k = 1; k < options.jobs; ++k) workers.emplace_back(work);
+  work();
+  for (std::thread& worker : workers) worker.join();
+  return results;
+}
+
+void add_orphans(const std::vector<fs::path>& goldens, std::vector<Result>& results) {
+  for (const fs::path& golden : goldens) {
+    fs::path script = golden;
+    if (fs::exists(script.replace_extension(".garment"))) continue;
+    Result result;
+    result.verdict = {golden.string(), "  has no script\n", 0};
+    result.told = fmt::format("FAILED {}\n  has no script\n", golden.string());
+    results.push_back(std::move(result));
+  }
+}
+
+ExitCode list_scripts(const std::vector<fs::path>& scripts, const GoldenOptions& options, Host& host, Terminal& terminal) {
+  for (const fs::path& path : scripts) {
+    const HostResult<std::string> script = host.read_file(path.string(), kMaxBytes);
+    const std::string text = script ? *script.value : "";
+    terminal.result(fmt::format("{:6} {}", stage_name(stage_of(path, text, read_expectations(text), options)), path.string()));
+  }
+  return kOk;
+}
+
+ExitCode summarise(const std::vector<Result>& results, const GoldenOptions& options, Host& host, Terminal& terminal) {
+  std::size_t failed = 0, updated = 0;
+  double drape = 0;
+  std::vector<GoldenVerdict> verdicts;
+  for (const Result& result : results) {
+    if (!result.told.empty()) terminal.result(result.told);
+    failed += result.verdict.failure.empty() ? 0 : 1;
+    updated += result.updated ? 1 : 0;
+    drape += result.drape_seconds;
+    verdicts.push_back(result.verdict);
+  }
+  if (updated > 0) terminal.result(fmt::format("{} updated", updated));
+  if (drape > 0) terminal.note(fmt::format("draping took {}", say_seconds(drape)));
+  terminal.result(fmt::format("{} passed, {} failed", results.size() - failed, failed));
+  if (!options.junit.empty()) {
+    const HostResult<bool> written = host.write_file(options.junit, junit_xml(verdicts));
+    if (!written) {
+      show({plain_error("G0902", fmt::format("cannot write `{}`: {}", options.junit, written.error.message),
+                        "choose another file after --junit")},
+           grammar::Sources{}, terminal);
+      return kInputOutput;
+    }
+  }
+  return failed == 0 ? kOk : kDiagnostics;
 }
 
 }  // namespace
 
 ExitCode run_goldens(const GoldenOptions& options, Host& host, Terminal& terminal) {
-  std::error_code error;
-  std::vector<fs::path> scripts, goldens;
-  for (fs::recursive_directory_iterator it(options.folder, error), end; !error && it != end;
-       it.increment(error)) {
-    if (it->path().extension() == ".garment") scripts.push_back(it->path());
-    if (it->path().extension() == ".expected") goldens.push_back(it->path());
-  }
-  if (error || scripts.empty()) {
-    show({plain_error(
-             "G0904",
-             fmt::format("`{}` holds no scripts{}", options.folder, error ? ": " + error.message() : ""),
-             "name a folder with .garment files")},
+  const Found found = find_below(options);
+  if (found.error || found.scripts.empty()) {
+    const bool filtered = !found.error && !options.filter.empty();
+    show({plain_error("G0904",
+                      fmt::format("`{}` holds no scripts{}", options.folder,
+                                  found.error ? ": " + found.error.message()
+                                  : filtered  ? fmt::format(" with `{}` in their path", options.filter)
+                                              : ""),
+                      filtered ? "--list shows them all" : "name a folder with .garment files")},
          grammar::Sources{}, terminal);
     return kInputOutput;
   }
-  std::sort(scripts.begin(), scripts.end());
-  std::sort(goldens.begin(), goldens.end());
-  Tally tally;
-  for (const fs::path& script : scripts) test_script(script, options, host, terminal, tally);
-  for (fs::path golden : goldens)
-    if (!fs::exists(golden.replace_extension(".garment"))) {
-      terminal.result(
-          fmt::format("FAILED {}\n  has no script", golden.replace_extension(".expected").string()));
-      ++tally.failed;
-    }
-  if (tally.updated > 0) terminal.result(fmt::format("{} updated", tally.updated));
-  terminal.result(fmt::format("{} passed, {} failed", tally.passed + tally.updated, tally.failed));
-  return tally.failed == 0 ? kOk : kDiagnostics;
+  if (options.list) return list_scripts(found.scripts, options, host, terminal);
+  std::vector<Result> results = test_all(found.scripts, options, host);
+  if (host.interrupted()) return kInterrupted;
+  add_orphans(found.goldens, results);
+  return summarise(results, options, host, terminal);
 }
 
 }  // namespace garment::cli

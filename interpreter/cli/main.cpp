@@ -111,6 +111,11 @@ int main(int argc, char** argv) {
   auto* test_command = app.add_subcommand("test", "run the golden scripts of a folder");
   test_command->add_option("folder", o.golden.folder, "folder with .garment files")->required();
   test_command->add_flag("--update", o.golden.update, "write the goldens anew and show the difference");
+  test_command->add_flag("!--no-drape", o.golden.drape, "only check the scripts that would be draped");
+  test_command->add_flag("--list", o.golden.list, "only name the scripts and how far each is taken");
+  test_command->add_option("--filter", o.golden.filter, "only scripts with this in their path; * stands for anything");
+  test_command->add_option("--junit", o.golden.junit, "also write the outcome to this file as JUnit XML");
+  test_command->add_option("-j,--jobs", o.golden.jobs, "scripts at a time")->check(CLI::Range(1, 64));
   add_common(test_command, o);
   auto* limits_command = app.add_subcommand("limits", "what a script may cost");
   add_common(limits_command, o);

@@ -77,12 +77,16 @@ bool repeats(const Diagnostic& earlier, const Diagnostic& later) {
          (tells_a_name(later) && earlier.code == later.code && earlier.message == later.message);
 }
 
-/// The unknown name stands in the line of another error.
+/// An unknown name stands in the line of another error, here or where a library speaks of it; or the name of
+/// a refused declaration stands in the line of `d`.
 bool lost_its_declaration(const Diagnostic& d, const Diagnostics& all, const Sources& sources) {
-  if (d.code != "G0301" || d.labels.empty()) return false;
-  const std::string_view name = sources.text(d.labels[0].span);
+  if (!is_error(d) || is_syntax(d) || d.labels.empty() || d.code == "G0302") return false;
   return std::any_of(all.begin(), all.end(), [&](const Diagnostic& other) {
-    return is_error(other) && other.code != "G0301" && line_holds(other, name, sources);
+    if (!is_error(other) || other.labels.empty() || tells_a_name(other)) return false;
+    if (other.code == "G0302") return line_holds(d, sources.text(other.labels[0].span), sources);
+    return tells_a_name(d) && std::any_of(d.labels.begin(), d.labels.end(), [&](const grammar::Label& label) {
+             return line_holds(other, sources.text(label.span), sources);
+           });
   });
 }
 

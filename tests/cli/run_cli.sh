@@ -407,5 +407,85 @@ complains "error[G0904]"
 run 3 test nowhere
 complains "error[G0904]"
 
+
+# A failing case of each kind is told as failing.
+mkdir -p mine/run mine/format mine/model
+{ printf '#! expect: 3 cm\nlet w = 2 cm\n'; cat square.garment; } >mine/value.garment
+run 1 test mine
+says "expected 3 cm, found 2 cm"
+printf '#! stage: parse\n#! oops\nlet w = 2 cm\n' >mine/value.garment
+run 1 test mine
+says 'line 2: `#! oops` says nothing known'
+cat >mine/value.garment <<'EOF'
+use fabrics
+#! stage: check
+#! tolerance: 1 mm
+#! expect: 25 cm
+let w = 50.1 cm / 2
+#! expect: 25 cm
+param v = 25 cm
+panel towel of fabrics.linen {
+  outline from (0, 0) {
+    edge bottom to (w, 0) free
+    edge right_side to (w, 40 cm) free
+    edge top to (0, 40 cm) free
+    close left_side free
+  }
+}
+pin peg on towel at towel.top.start
+EOF
+run 0 test mine
+sed -i 's/^#! tolerance.*/#! tolerance: 0.1%/' mine/value.garment
+run 1 test mine
+says "expected 25 cm, found 25.05 cm"
+sed -i 's/^#! tolerance.*/#! tolerance: 1 furlong/' mine/value.garment
+run 1 test mine
+says "says nothing known"
+rm mine/value.garment
+printf 'let   w=3 cm\n' >mine/format/loose.garment
+printf 'let w = 3  cm\n' >mine/format/loose.expected
+run 1 test mine
+says "- let w = 3  cm"
+says "+ let w = 3 cm"
+run 0 test mine --update
+says "1 updated"
+run 0 test mine/format
+cp square.garment mine/model/square.garment
+run 0 test mine --update
+sed -i '1s/\([0-9][0-9]*\)/1\1/' mine/model/square.expected
+run 1 test mine --filter '*model*square*'
+says "  ~ "
+says "0 passed, 1 failed"
+sed -i '1i #! tolerance: 2000%' mine/model/square.expected
+run 0 test mine/model
+run 0 test mine/model --update
+ok
+head -1 mine/model/square.expected | grep -q tolerance || fail "--update dropped the tolerance of a golden"
+# Scripts with a `drape` are draped, and their `expect`s judged.
+cp square.garment mine/draped.garment
+run 0 test mine --filter draped
+complains "draping took"
+sed -i 's/^expect.*/expect strain(cloth) > 90%/' mine/draped.garment
+run 1 test mine --filter draped
+says "does not hold"
+run 0 test mine --filter draped --no-drape
+run 0 test mine --list
+says "run    mine/draped.garment"
+says "format mine/format/loose.garment"
+run 1 test mine --junit out.xml -j 2
+says "2 passed, 1 failed"
+ok
+grep -q '<testsuites name="garment test" tests="3" failures="1" errors="0">' out.xml || fail "out.xml does not count"
+ok
+grep -q '&gt; 90%' out.xml || fail "out.xml is not escaped"
+if command -v python3 >/dev/null; then
+  ok
+  python3 -c 'import sys, xml.dom.minidom; xml.dom.minidom.parse(sys.argv[1])' out.xml || fail "out.xml is not XML"
+fi
+run 3 test mine --junit plain_file/out.xml
+complains "error[G0902]"
+run 3 test mine --filter nothing_like_it
+complains "--list shows them all"
+
 echo "$checks checks, $failures failures"
 [ $failures -eq 0 ]

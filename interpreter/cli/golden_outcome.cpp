@@ -1,0 +1,150 @@
+#include "interpreter/cli/golden_outcome.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "interpreter/cli/project.hpp"
+#include "interpreter/language/construct_table.hpp"
+#include "interpreter/language/interpret.hpp"
+#include "interpreter/language/script_values.hpp"
+#include "interpreter/session/drape_answers.hpp"
+#include "interpreter/session/models.hpp"
+#include "runtime/base/number.hpp"
+#include "runtime/model/dump.hpp"
+#include "runtime/modeller/modeller.hpp"
+#include "runtime/modeller/unmodelled.hpp"
+#include "runtime/results/report.hpp"
+#include "runtime/simulator/drape_levels.hpp"
+
+namespace garment::cli {
+namespace {
+
+void add(grammar::Diagnostics& all, grammar::Diagnostics more) {
+  for (grammar::Diagnostic& d : more) all.push_back(std::move(d));
+}
+
+bool has_error(const grammar::Diagnostics& diagnostics) {
+  for (const grammar::Diagnostic& d : diagnostics)
+    if (d.severity == Severity::error) return true;
+  return false;
+}
+
+/// Drapes the model and answers the script's questions, in the order of the script.
+class GoldenRun {
+ public:
+  GoldenRun(GoldenOutcome& outcome, interpreter::Interpretation& script, const model::Model& model, Host& host)
+      : outcome_(outcome), script_(script), model_(model), host_(host) {
+    state_.position = model.start;
+    state_.velocity.assign(model.n_particles(), Eigen::Vector3d::Zero());
+  }
+
+  void perform() {
+    for (const interpreter::Act& act : script_.acts) {
+      if (has_error(outcome_.diagnostics) || host_.interrupted()) return;
+      if (const auto* drape = std::get_if<interpreter::DrapeAct>(&act.act)) this->drape(*drape, act.span);
+      const bool asks = std::holds_alternative<interpreter::ExpectAct>(act.act) ||
+                        std::holds_alternative<interpreter::MeasureAct>(act.act);
+      if (asks && !draped_)
+        refuse("G0325", "stands before any `drape`, so there is nothing to ask", "write `drape until rest` above it", act.span);
+      else if (asks)
+        answer(act);
+    }
+  }
+
+ private:
+  void refuse(const char* code, const char* message, const char* help, grammar::Span span) {
+    grammar::Diagnostic d = plain_error(code, message, help);
+    d.labels.push_back({span, ""});
+    outcome_.diagnostics.push_back(std::move(d));
+  }
+
+  void drape(const interpreter::DrapeAct& act, grammar::Span span) {
+    if (!act.until_rest) return refuse("G0804", "`drape for` a time is not supported yet", "write `drape until rest`", span);
+    simulator::DrapeSettings settings;
+    settings.settle = act.settle;
+    settings.interrupted = [this] { return host_.interrupted(); };
+    std::vector<model::Model> coarse;
+    if (!draped_) coarse = session::coarse_models(script_.garment, script_.bodies, model_);
+    const double begun = host_.seconds();
+    report_ = simulator::drape_levels(coarse, model_, script_.bodies, state_, settings);
+    outcome_.drape_seconds += host_.seconds() - begun;
+    draped_ = true;
+    add(outcome_.diagnostics, interpreter::to_diagnostics(report_.findings, script_.origins));
+    outcome_.text += fmt::format("drape: {}\n", results::status_name(report_.status));
+  }
+
+  void answer(const interpreter::Act& act) {
+    session::DrapeAnswers answers(script_.garment, script_.bodies, model_, state_, report_);
+    if (std::holds_alternative<interpreter::ExpectAct>(act.act)) {
+      interpreter::ExpectResult r = interpreter::evaluate_expect(script_, act, answers);
+      ++outcome_.n_expects;
+      outcome_.text += fmt::format("expect {}: {}, {}\n", r.text, r.found, r.passed ? "holds" : "does not hold");
+      return add(outcome_.diagnostics, std::move(r.diagnostics));
+    }
+    interpreter::MeasureResult r = interpreter::evaluate_measure(script_, act, answers);
+    outcome_.text += fmt::format("measure {}: {}\n", r.measure.name, r.measure.text);
+    outcome_.values[outcome_.sources.place(act.span.source, act.span.begin).line] = r.measure.text;
+    add(outcome_.diagnostics, std::move(r.diagnostics));
+  }
+
+  GoldenOutcome& outcome_;
+  interpreter::Interpretation& script_;
+  const model::Model& model_;
+  Host& host_;
+  model::State state_;
+  simulator::DrapeReport report_;
+  bool draped_ = false;
+};
+
+void interpret_golden(GoldenOutcome& o, const std::string& path, grammar::SourceId id, GoldenStage stage,
+                      const std::string& stdlib_dir, Host& host) {
+  interpreter::InterpretOptions options;
+  options.stdlib_dir = stdlib_dir;
+  options.script_dir = folder_of(path);
+  options.warn_unused = true;
+  interpreter::Interpretation result = interpreter::interpret(o.sources, id, host, options);
+  o.diagnostics = result.diagnostics;
+  if (!result.ok()) return;
+  o.values = interpreter::values_by_line(result, o.sources);
+  modeller::ModelResult built;
+  if (stage == GoldenStage::check) built.findings = modeller::find_unmodelled(result.garment, Severity::warning);
+  if (built.findings.empty()) built = modeller::build_model(result.garment, result.bodies);
+  add(o.diagnostics, interpreter::to_diagnostics(built.findings, result.origins));
+  if (built.model && stage == GoldenStage::model) o.text = model::summary_text(*built.model);
+  if (built.model && stage == GoldenStage::run && !has_error(o.diagnostics)) {
+    for (const interpreter::MeasureValue& m : result.measures) o.text += fmt::format("measure {}: {}\n", m.name, m.text);
+    GoldenRun(o, result, *built.model, host).perform();
+  }
+}
+
+}  // namespace
+
+bool has_drape(const std::string& script) {
+  grammar::Sources sources;
+  const grammar::SourceId id = sources.add("script", script);
+  for (const grammar::Statement& s : grammar::parse(sources, id, interpreter::vocabulary()).script.statements)
+    if (s.keyword.text == "drape") return true;
+  return false;
+}
+
+GoldenOutcome run_golden(const std::string& path, const std::string& script, GoldenStage stage,
+                         const std::string& stdlib_dir, Host& host) {
+  GoldenOutcome o;
+  const grammar::SourceId id = o.sources.add(std::filesystem::path(path).filename().string(), script);
+  if (stage == GoldenStage::parse) {
+    grammar::ParseResult parsed = grammar::parse(o.sources, id, interpreter::vocabulary());
+    o.diagnostics = std::move(parsed.diagnostics);
+    o.text = grammar::to_outline(parsed.script);
+  } else if (stage == GoldenStage::format) {
+    grammar::FormatResult formatted = grammar::format(o.sources, id, interpreter::vocabulary());
+    o.diagnostics = std::move(formatted.diagnostics);
+    if (o.diagnostics.empty()) o.text = std::move(formatted.text);
+  } else {
+    interpret_golden(o, path, id, stage, stdlib_dir, host);
+  }
+  for (const grammar::Diagnostic& d : o.diagnostics) o.text += grammar::render(d, o.sources, false);
+  return o;
+}
+
+}  // namespace garment::cli
