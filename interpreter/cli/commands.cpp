@@ -113,31 +113,6 @@ ExitCode show_model(const ProjectOptions& options, Host& host, Terminal& termina
   return code;
 }
 
-ExitCode format(const FormatOptions& options, Host& host, Terminal& terminal) {
-  grammar::Sources sources;
-  grammar::SourceId id = 0;
-  if (!read_script(options.file, host, sources, id, terminal)) return kInputOutput;
-  grammar::FormatResult formatted = grammar::format(sources, id, interpreter::vocabulary());
-  show(formatted.diagnostics, sources, terminal);
-  if (!formatted.diagnostics.empty()) return kDiagnostics;
-  if (options.check) {
-    bool same = formatted.text == sources[id].text;
-    if (!same) terminal.note(fmt::format("{} is not laid out canonically; `garment fmt {}` does it", options.file, options.file));
-    return same ? kOk : kDiagnostics;
-  }
-  if (options.stdout_only) {
-    terminal.result(formatted.text);
-    return kOk;
-  }
-  if (formatted.text == sources[id].text) return kOk;
-  HostResult<bool> written = host.write_file(options.file, formatted.text);
-  if (!written) {
-    show({plain_error("G0902", fmt::format("cannot write `{}`: {}", options.file, written.error.message), "")}, sources, terminal);
-    return kInputOutput;
-  }
-  return kOk;
-}
-
 ExitCode import_pattern(const ImportOptions& options, Host& host, Terminal& terminal) {
   grammar::Sources sources;
   HostResult<std::string> text = host.read_file(options.file, 16u << 20);

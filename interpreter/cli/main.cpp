@@ -97,9 +97,10 @@ int main(int argc, char** argv) {
   auto* parse_command = app.add_subcommand("parse", "show the syntax tree");
   parse_command->add_option("file", o.parse_file, "script")->required();
   add_common(parse_command, o);
-  auto* format_command = app.add_subcommand("fmt", "lay a script out canonically, in place");
-  format_command->add_option("file", o.format.file, "script")->required();
-  format_command->add_flag("--check", o.format.check, "only say whether it is; exit 1 if not");
+  auto* format_command = app.add_subcommand("fmt", "lay scripts out canonically, in place");
+  format_command->add_option("files", o.format.files, "scripts, folders of scripts, or - for standard input")->required();
+  format_command->add_flag("--check", o.format.check, "only say whether they are; exit 1 if not");
+  format_command->add_flag("--diff", o.format.diff, "only show what would change, as a unified diff; exit 1 if anything");
   format_command->add_flag("--stdout", o.format.stdout_only, "print instead of writing");
   add_common(format_command, o);
   auto* import_command = app.add_subcommand("import", "turn a sewing-pattern specification into a script");

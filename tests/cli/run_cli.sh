@@ -157,6 +157,31 @@ says "let w = 20 cm"
 run 0 fmt loose.garment
 run 0 fmt --check loose.garment
 run 3 fmt nobody.garment
+mkdir -p layout/inner nothing
+printf 'let   w=20   cm\nlet v = 3 cm\n' >layout/a.garment
+printf 'let w = 20 cm\n' >layout/inner/b.garment
+run 1 fmt --check layout
+complains "layout/a.garment is not laid out"
+run 1 fmt --diff layout
+says "@@ -1,2 +1,2 @@"
+says "-let   w=20   cm"
+says "+let w = 20 cm"
+if command -v patch >/dev/null; then
+  ok
+  cp layout/a.garment patched.garment
+  patch -s patched.garment out.txt && "$program" fmt --check patched.garment || fail "the diff of fmt is no patch"
+fi
+run 0 fmt layout square.garment
+run 0 fmt --check layout square.garment
+run 0 fmt --diff layout
+silent out.txt
+run 3 fmt nothing
+complains "error[G0904]"
+ok
+[ "$(printf 'let   w=20   cm\n' | "$program" fmt -)" = "let w = 20 cm" ] || fail "fmt - does not lay out standard input"
+ok
+printf 'let w = (\n' | "$program" fmt - >out.txt 2>err.txt && fail "fmt - accepts a broken script"
+complains "standard input:1:9"
 
 # ---- run
 run 0 run square.garment --no-pictures
