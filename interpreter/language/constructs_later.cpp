@@ -29,10 +29,6 @@ const Words kActs = {"drape", "expect", "save", "record", "release"};
 
 std::vector<ConstructRecord> later_constructs() {
   return {
-      later("slash", false, "slash PANEL along LINE spread LENGTH", "opens a panel along a line",
-            {"along", "spread"}),
-      later("move", false, "move EDGE by (DX, DY)", "moves an edge", {"by"}),
-      later("scale", false, "scale PANEL by FACTOR", "scales a panel", {"by"}),
       later("vary", false, "vary NAME over VALUE, ... { ... }", "a study side by side", {"over"}, true,
             kActs),
       later("record", false, "record curve VALUE, VALUE every TIME as \"FILE\"", "writes a curve",

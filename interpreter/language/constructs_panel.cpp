@@ -1,5 +1,6 @@
 // Panels and everything that stands in their blocks.
 #include "interpreter/language/construct_table.hpp"
+#include "interpreter/language/modifiers.hpp"
 #include "interpreter/language/panels.hpp"
 
 namespace garment::interpreter::detail {
@@ -21,15 +22,12 @@ const std::vector<ClauseRecord> kEdgeClauses = {
     {"tangents", "[start DIRECTION] [end DIRECTION]",
      "a smooth curve that leaves and arrives in these directions"},
     {"bulge", "LENGTH", "an arc with this height over its chord, positive to the left", kLength, -10, 10},
+    {"along", "EDGE",
+     "the course of another edge, part of one or chain, moved to where the walk is; with an end also turned"},
+    {"offset", "LENGTH", "with `along`: beside it, positive to the left of its way", kLength, -1, 1},
     {"allowance", "LENGTH", "cloth outside the stitch line of this edge", kLength, 0, 0.3},
     {"free", "", "stays unsewn on purpose"},
 };
-
-std::vector<ClauseRecord> with_along(std::vector<ClauseRecord> clauses) {
-  clauses.push_back({"along", "OTHER.EDGE", ""});
-  clauses.push_back({"offset", "LENGTH", ""});
-  return clauses;
-}
 
 /// Of a line inside a panel: an edge that says itself where it starts.
 std::vector<ClauseRecord> line_clauses() {
@@ -86,14 +84,15 @@ std::vector<ConstructRecord> panel_constructs() {
        .top = false},
       {.keyword = "edge",
        .declares_name = true,
-       .form = "edge NAME to POINT | by (DX, DY) | heading DIRECTION length LENGTH [CURVE] [free]",
+       .form = "edge NAME to POINT | by (DX, DY) | heading DIRECTION length LENGTH [CURVE] [free] | edge NAME along "
+               "EDGE [offset LENGTH]",
        .doc = "the next edge of an outline",
        .example = "edge hem to (30 cm, 1 cm) tangents start +x",
-       .clauses = with_along(kEdgeClauses),
+       .clauses = kEdgeClauses,
        .top = false},
       {.keyword = "close",
        .declares_name = true,
-       .form = "close NAME [CURVE] [free]",
+       .form = "close NAME [CURVE] [along EDGE] [free]",
        .doc = "the last edge, back to where the outline began",
        .example = "close cf",
        .clauses = kEdgeClauses,
@@ -110,7 +109,7 @@ std::vector<ConstructRecord> panel_constructs() {
        .top = false},
       {.keyword = "line",
        .declares_name = true,
-       .form = "line NAME from POINT to POINT | by (DX, DY) | heading DIRECTION length LENGTH [CURVE]",
+       .form = "line NAME from POINT to POINT | by (DX, DY) | heading DIRECTION length LENGTH [CURVE] | line NAME along EDGE",
        .doc = "a line on the cloth: used wherever an edge is",
        .example = "line roll from (0, 30 cm) to (12 cm, 55 cm) bulge 5 mm",
        .clauses = line_clauses(),
@@ -225,6 +224,26 @@ std::vector<ConstructRecord> panel_constructs() {
        .example = "replace edge waist to (0, 60 cm) bulge -1 cm",
        .clauses = kEdgeClauses,
        .top = false},
+      {.keyword = "slash",
+       .form = "slash PANEL along LINE spread LENGTH [to LENGTH]",
+       .doc = "cuts a panel along a line from edge to edge and spreads the parts; `to 0 cm` makes a hinge",
+       .example = "slash in_panel along in_panel.across_line spread 2 cm to 0 cm",
+       .clauses = {{"along", "LINE", "an interior line that runs from edge to edge"},
+                   {"spread", "LENGTH", "how far the parts stand apart at the line's start", kLength, 0, 0.5},
+                   {"to", "LENGTH", "and at its end; as far unless stated", kLength, 0, 0.5}},
+       .run = run_modifier},
+      {.keyword = "move",
+       .form = "move EDGE [, EDGE ...] by (DX, DY)",
+       .doc = "moves edges, lines, points or holes of a panel; neighbouring edges are drawn along",
+       .example = "move front.hem by (0, -3 cm)",
+       .clauses = {{"by", "(DX, DY)", "how far, in the panel as drawn"}},
+       .run = run_modifier},
+      {.keyword = "scale",
+       .form = "scale PANEL by FACTOR | (FACTOR_X, FACTOR_Y)",
+       .doc = "scales a panel about (0, 0) of its drawing, with its darts and pleats",
+       .example = "scale cloth by 1.05",
+       .clauses = {{"by", "FACTOR | (FACTOR_X, FACTOR_Y)", "0.2 .. 5"}},
+       .run = run_modifier},
   };
 }
 

@@ -11,6 +11,7 @@
 #include "interpreter/language/fabrics.hpp"
 #include "interpreter/language/layers.hpp"
 #include "interpreter/language/libraries.hpp"
+#include "interpreter/language/modifiers.hpp"
 #include "interpreter/language/notch_order.hpp"
 #include "interpreter/language/panels.hpp"
 #include "interpreter/language/parameters.hpp"
@@ -63,6 +64,7 @@ void run_all(Program& program) {
   register_module(program, module);
   check_libraries(program);
   settle_declarations(program, module);
+  collect_modifiers(program, module);
   find_backs(program);
   check_given_parameters(program);
   for (const Item& item : module.items)

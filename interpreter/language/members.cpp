@@ -85,7 +85,10 @@ Value panel_member(Program& program, const Expr& expr, int index, std::string ha
              .help("write `" + info.panel.name + ".left." + name + "` or `" + info.panel.name + ".right." + name + "`"));
   std::vector<std::string> names = edge_names(info);
   for (const design::InteriorPoint& point : info.panel.points)
-    if (point.name.starts_with(half) || !info.folded) names.push_back(point.name);
+    if (half.empty())
+      names.push_back(point.name);
+    else if (point.name.starts_with(half + '.'))
+      names.push_back(point.name.substr(half.size() + 1));
   if (half.empty() && info.folded) names.insert(names.end(), {"left", "right"});
   if (half.empty()) names.emplace_back("resolution");
   fail_member(program, expr, what, name, names);

@@ -3,7 +3,9 @@
 #include <cmath>
 
 #include "interpreter/language/clauses.hpp"
+#include "interpreter/language/edge_course.hpp"
 #include "runtime/base/portable_math.hpp"
+#include "runtime/geometry/curve_map.hpp"
 
 namespace garment::interpreter {
 namespace {
@@ -14,6 +16,7 @@ using geometry::Curve;
 constexpr double kShortest = 1e-4;  // m, the shortest edge
 constexpr double kSnap = 1e-5;      // m, an outline that ends this near its start is closed
 constexpr double kFarthest = 100;   // m
+constexpr double kChordFits = 1e-4; // m, a copied course is this near as long from end to end
 
 class EdgeDrawer {
  public:
@@ -32,6 +35,7 @@ class EdgeDrawer {
 
   /// The next edge of a loop.
   design::Edge draw() {
+    if (const BoundClause* along = clauses_.find("along")) return finish(course(*along));
     to_ = end_point();
     if ((to_ - from_).norm() == 0 && closes_)
       fail(program_,
@@ -39,9 +43,27 @@ class EdgeDrawer {
                .help("leave `close " + name_ + "` out"));
     if (!(to_.cwiseAbs().maxCoeff() <= kFarthest))
       fail(program_, Message("G0309", kind_ + " `" + name_ + "` ends more than 100 m away", name_span_));
+    return finish(Curve(from_, to_, shape()));
+  }
+
+  /// A line inside a panel, which says itself where it starts; along another course it may lie where that does.
+  design::Edge draw_line() {
+    if (clauses_.has("along") && !clauses_.has("from")) {
+      stays_ = true;
+      return draw();
+    }
+    const BoundClause& from = clauses_.need("from");
+    from_ = point(clauses_.value(from), *from.scope, "`from`", false);
+    if (!(from_.cwiseAbs().maxCoeff() <= kFarthest))
+      fail(program_, Message("G0309", kind_ + " `" + name_ + "` starts more than 100 m away", name_span_));
+    return draw();
+  }
+
+ private:
+  design::Edge finish(Curve curve) {
     design::Edge edge;
     edge.name = name_;
-    edge.curve = Curve(from_, to_, shape());
+    edge.curve = std::move(curve);
     edge.free = clauses_.has("free") && clauses_.flag("free");
     const auto allowance = clauses_.has("allowance") ? clauses_.quantity("allowance") : std::nullopt;
     edge.allowance = allowance.value_or(0);
@@ -56,19 +78,55 @@ class EdgeDrawer {
     return edge;
   }
 
-  /// A line inside a panel, which says itself where it starts.
-  design::Edge draw_line() {
-    const BoundClause& from = clauses_.need("from");
-    from_ = point(clauses_.value(from), *from.scope, "`from`", false);
-    if (!(from_.cwiseAbs().maxCoeff() <= kFarthest))
-      fail(program_, Message("G0309", kind_ + " `" + name_ + "` starts more than 100 m away", name_span_));
-    return draw();
-  }
-
- private:
   Point2 point(const Expr& expr, Scope& scope, const std::string& what, bool relative) {
     const PointValue p = eval_point(program_, expr, scope, 2, kLength, what);
     return relative ? Point2(from_.x() + p.at[0], from_.y() + p.at[1]) : Point2(p.at[0], p.at[1]);
+  }
+
+  /// The course of another edge or curve, brought to where the walk is: moved so that it starts there, and where an end is
+  /// stated, turned so that it ends there.
+  Curve course(const BoundClause& along) {
+    for (const char* word : {"control", "controls", "arc", "through", "tangents", "bulge"})
+      if (clauses_.has(word))
+        fail(program_, Message("G0415", kind_ + " `" + name_ + "` has two curves: `along` and `" + word + "`", name_span_)
+                           .help("the course comes from the other edge; leave `" + std::string(word) + "` out"));
+    const Expr& expr = clauses_.value(along);
+    Curve curve = eval_course(program_, expr, *along.scope, "`along`");
+    if (const auto offset = clauses_.quantity("offset"); offset && *offset != 0) curve = offset_course(curve, *offset, expr);
+    if (stays_) return curve;
+    Eigen::Isometry2d motion = Eigen::Isometry2d::Identity();
+    if (!closes_ && !clauses_.has("to") && !clauses_.has("by") && !clauses_.has("heading")) {
+      if ((curve.start() - from_).norm() <= 1e-9) return curve;
+      motion.translation() = from_ - curve.start();
+      return curve.transformed(motion);
+    }
+    to_ = end_point();
+    const Point2 wanted = to_ - from_, chord = curve.end() - curve.start();
+    if (std::fabs(wanted.norm() - chord.norm()) > kChordFits || chord.norm() < kShortest)
+      fail(program_,
+           Message("G0440",
+                   "`" + name_ + "` is to end " + format_quantity(wanted.norm(), kLength) +
+                       " from where it starts; the course of `" + std::string(program_.sources.text(expr.span)) + "` is " +
+                       format_quantity(chord.norm(), kLength) + " from end to end",
+                   name_span_)
+               .help("leave the end out: the copy is moved to where the walk is, and ends where it ends"));
+    const Point2 u = chord.normalized(), v = wanted.normalized();
+    const double c = u.dot(v), s = u.x() * v.y() - u.y() * v.x();
+    motion.linear() << c, -s, s, c;
+    motion.translation() = from_ - motion.linear() * curve.start();
+    const Curve moved = curve.transformed(motion);
+    return geometry::warped(moved, from_ - moved.start(), to_ - moved.end());
+  }
+
+  Curve offset_course(const Curve& curve, double distance, const Expr& expr) {
+    double at = 0;
+    if (const auto found = geometry::beside(curve, distance, at)) return *found;
+    fail(program_, Message("G0441",
+                           "there is no course " + format_quantity(distance, kLength) + " beside `" +
+                               std::string(program_.sources.text(expr.span)) + "`: " + format_quantity(at, kLength) +
+                               " along it, it bends more tightly than that",
+                           clauses_.find("offset")->clause->span)
+                       .help("take a smaller offset, or copy the parts on either side one by one"));
   }
 
   Point2 end_point() {
@@ -80,10 +138,6 @@ class EdgeDrawer {
       fail(program_,
            Message("G0313", "`close` goes back to where the outline began; it takes no end", name_span_));
     if (closes_) return first_;
-    if (const BoundClause* along = ways == 0 ? clauses_.find("along") : nullptr)
-      fail(
-          program_,
-          Message("G0315", "`along` of `edge` is not supported yet", along->clause->span).help(kStillToCome));
     if (ways != 1)
       fail(program_,
            Message(ways == 0 ? "G0312" : "G0415",
@@ -240,7 +294,7 @@ class EdgeDrawer {
   Clauses clauses_;
   std::string kind_, name_;
   Span span_, name_span_;
-  bool closes_ = false, relative_ = false;
+  bool closes_ = false, relative_ = false, stays_ = false;
   Point2 from_, first_, to_;
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "interpreter/language/fabrics.hpp"
+#include "interpreter/language/modifiers.hpp"
 #include "interpreter/language/outline.hpp"
 #include "interpreter/language/panel_interior.hpp"
 #include "interpreter/language/panel_marks.hpp"
@@ -36,7 +37,7 @@ class PanelMaker {
     draw_outline(drawing);
     bool good = draw_interior(drawing) && check_interior(drawing);
     good = add_marks(drawing) && good;
-    if (!good) throw Stop{};
+    if (!good || !apply_modifiers(drawing)) throw Stop{};
     if (recipe_->mirrored) mirror();
     if (!recipe_->fold.empty()) open_fold();
     finish();
@@ -142,6 +143,7 @@ class PanelMaker {
     for (Diagnostic& diagnostic : to_diagnostics(whole.findings, program_.origins)) {
       Message message("", "", head_span());
       message.diagnostic = std::move(diagnostic);
+      if (!info_.modifiers.empty()) message.also(info_.modifiers.back().statement->span, "changed here");
       report(program_, std::move(message));
     }
     if (!whole.panel) throw Stop{};
