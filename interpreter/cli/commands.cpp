@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "interpreter/cli/modelling.hpp"
+#include "interpreter/cli/study.hpp"
 #include "interpreter/language/construct_table.hpp"
 #include "interpreter/language/limit_table.hpp"
 #include "interpreter/language/unparse.hpp"
@@ -68,6 +69,7 @@ ExitCode check(const ProjectOptions& given, bool whole, Host& host, Terminal& te
   options.build_bodies = whole;
   ExitCode code = load(project, options, host, terminal);
   if (code == kOk) code = check_model(project, whole, terminal);
+  if (code == kOk) code = check_studies(options, project.result.acts, host, terminal);
   const design::Garment& g = project.result.garment;
   if (terminal.options().json) {
     nlohmann::ordered_json all{{"ok", code == kOk}};

@@ -11,9 +11,45 @@ std::optional<model::Model> build_model(Project& project, Terminal& terminal) {
   return std::move(built.model);
 }
 
+namespace {
+
+/// Says which acts `garment run` will refuse; false where one is wrong.
+bool check_acts(const Project& project, Terminal& terminal) {
+  grammar::Diagnostics told;
+  auto warn = [&told](const char* code, const char* message, const char* help, grammar::Span span) {
+    grammar::Diagnostic d = plain_error(code, message, help);
+    d.severity = Severity::warning;
+    d.labels.push_back({span, ""});
+    told.push_back(d);
+  };
+  bool draped = false, right = true;
+  for (const interpreter::Act& act : project.result.acts) {
+    const auto* drape = std::get_if<interpreter::DrapeAct>(&act.act);
+    draped = draped || drape != nullptr;
+    const bool expects = std::holds_alternative<interpreter::ExpectAct>(act.act);
+    if (!draped && right && (expects || std::holds_alternative<interpreter::MeasureAct>(act.act))) {
+      warn("G0325", expects ? "`expect` stands before any `drape`, so there is nothing to ask"
+                            : "`measure` stands before any `drape`, so there is nothing to ask",
+           "write `drape until rest` above it", act.span);
+      told.back().severity = Severity::error;
+      right = false;
+    }
+    if (drape != nullptr && !drape->until_rest)
+      warn("G0804", "`drape for` a time cannot be run yet", "write `drape until rest`", act.span);
+    if (std::holds_alternative<interpreter::RecordAct>(act.act))
+      warn("G1325", "a curve cannot be recorded yet", "`garment run` refuses it; leave `record` out for now",
+           act.span);
+  }
+  show(told, project.sources, terminal);
+  return right;
+}
+
+}  // namespace
+
 ExitCode check_model(Project& project, bool whole, Terminal& terminal) {
   Findings missing = modeller::find_unmodelled(project.result.garment, Severity::warning);
   show(interpreter::to_diagnostics(missing, project.result.origins), project.sources, terminal);
+  if (!check_acts(project, terminal)) return kDiagnostics;
   const bool quick = !whole && !project.is_pattern && !project.result.garment.panels.empty();
   if (!missing.empty() || quick) return kOk;
   return build_model(project, terminal) ? kOk : kDiagnostics;

@@ -128,10 +128,14 @@ ExitCode load(Project& project, const ProjectOptions& options, Host& host, Termi
   interpret_options.allow_read = options.allow_read;
   interpret_options.allow_write = options.allow_write;
   interpret_options.build_bodies = options.build_bodies;
+  interpret_options.study = options.study;
   if (!parse_params(options.params, interpret_options.params, terminal)) return kUsage;
   project.source = project.sources.add(options.file, std::move(*text.value));
   project.result = interpreter::interpret(project.sources, project.source, host, interpret_options);
-  show(project.result.diagnostics, project.sources, terminal);
+  grammar::Diagnostics told = project.result.diagnostics;
+  if (options.only_errors)
+    std::erase_if(told, [](const grammar::Diagnostic& d) { return d.severity != Severity::error; });
+  show(told, project.sources, terminal);
   return project.result.ok() ? kOk : kDiagnostics;
 }
 

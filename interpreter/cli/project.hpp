@@ -19,6 +19,8 @@ struct ProjectOptions {
   std::string body;                    ///< OBJ file that a specification is worn by
   std::string stdlib_dir;
   std::vector<std::string> library_dirs;  ///< where `use NAME` looks first
+  std::optional<interpreter::Study> study;  ///< one round of a `vary`
+  bool only_errors = false;            ///< keep warnings to itself
   bool build_bodies = true;            ///< see InterpretOptions
   std::vector<std::string> allow_read;   ///< further folders below which a script may read
   std::vector<std::string> allow_write;  ///< further folders below which it may write

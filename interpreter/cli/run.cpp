@@ -6,10 +6,12 @@
 
 #include "interpreter/cli/modelling.hpp"
 #include "interpreter/cli/outputs.hpp"
+#include "interpreter/cli/study.hpp"
 #include "interpreter/session/drape_answers.hpp"
 #include "interpreter/session/models.hpp"
 #include "runtime/base/hash.hpp"
 #include "runtime/base/number.hpp"
+#include "runtime/modeller/modeller.hpp"
 #include "runtime/results/report.hpp"
 #include "runtime/simulator/drape_levels.hpp"
 
@@ -64,9 +66,10 @@ struct Run {
   Host& host;
   Terminal& terminal;
   Project& project;
-  const model::Model& model;
+  model::Model& model;
   OutputFolder& out;
   results::Report& report;
+  design::Garment holding;  ///< less what was released
   model::State state;
   bool draped = false;
   ExitCode code = kOk;
@@ -105,6 +108,35 @@ struct Run {
     return true;
   }
 
+  /// The holds of the garment without what was released; all else of the model stays.
+  void release(const interpreter::ReleaseAct& act) {
+    if (act.pin >= 0) holding.pins[static_cast<std::size_t>(act.pin)].panel = -1;
+    if (act.clamp >= 0) {
+      holding.scene.clamps[static_cast<std::size_t>(act.clamp)].parts.clear();
+      holding.scene.clamps[static_cast<std::size_t>(act.clamp)].region = -1;
+    }
+    design::Garment left = holding;
+    std::erase_if(left.pins, [](const design::Pin& pin) { return pin.panel < 0; });
+    std::erase_if(left.scene.clamps, [](const design::Clamp& c) { return c.region < 0 && c.parts.empty(); });
+    modeller::ModelResult built = modeller::build_model(left, project.result.bodies);
+    if (!built.model || built.model->n_particles() != model.n_particles()) {
+      show(interpreter::to_diagnostics(built.findings, project.result.origins), project.sources, terminal);
+      code = kDiagnostics;
+      return;
+    }
+    model.hold_particle = built.model->hold_particle;
+    model.hold_kind = built.model->hold_kind;
+    model.hold_point = built.model->hold_point;
+    model.hold_normal = built.model->hold_normal;
+  }
+
+  void refuse_record(const interpreter::Act& act) {
+    grammar::Diagnostic d = plain_error("G1325", "a curve cannot be recorded yet", "leave `record` out for now");
+    d.labels.push_back({act.span, ""});
+    show({d}, project.sources, terminal);
+    code = kDiagnostics;
+  }
+
   void expect(const interpreter::Act& act) {
     if (refuse_before_drape(act, "expect")) return;
     session::DrapeAnswers answers(project.result.garment, project.result.bodies, model, state, report.drape);
@@ -129,6 +161,10 @@ void perform(Run& run) {
     if (auto* drape = std::get_if<interpreter::DrapeAct>(&act.act)) run.drape(*drape, act.span);
     if (std::holds_alternative<interpreter::ExpectAct>(act.act)) run.expect(act);
     if (std::holds_alternative<interpreter::MeasureAct>(act.act)) run.measure(act);
+    if (auto* release = std::get_if<interpreter::ReleaseAct>(&act.act)) run.release(*release);
+    if (std::holds_alternative<interpreter::RecordAct>(act.act)) run.refuse_record(act);
+    if (auto* vary = std::get_if<interpreter::VaryAct>(&act.act))
+      run.code = std::max(run.code, run_study(run.options, *vary, run.out.folder(), run.host, run.terminal));
     if (auto* save = std::get_if<interpreter::SaveAct>(&act.act))
       for (const std::string& name : save->paths)
         if (!save_file(name, run.project, run.model, run.state, run.out, run.terminal)) run.code = kInputOutput;
@@ -155,8 +191,9 @@ void summarise(const results::Report& report, const OutputFolder& out, bool drap
   terminal.note(fmt::format("results in {}/", out.folder()));
 }
 
-/// The whole run; what it found goes to `report`.
-ExitCode run_all(const RunOptions& options, results::Report& report, bool& reported, Host& host, Terminal& terminal) {
+}  // namespace
+
+ExitCode run_script(const RunOptions& options, results::Report& report, bool& reported, Host& host, Terminal& terminal) {
   Stopwatch watch(host, report.phases);
   Project project;
   if (ExitCode code = load(project, options.project, host, terminal); code != kOk) return code;
@@ -166,7 +203,7 @@ ExitCode run_all(const RunOptions& options, results::Report& report, bool& repor
   watch.lap("model");
 
   OutputFolder out(options.out.empty() ? project.name : options.out, host, terminal, options.project.allow_write);
-  Run under_way{options, host, terminal, project, *model, out, report, {}, false, kOk};
+  Run under_way{options, host, terminal, project, *model, out, report, project.result.garment, {}, false, kOk};
   under_way.state.position = model->start;
   under_way.state.velocity.assign(model->n_particles(), Eigen::Vector3d::Zero());
   perform(under_way);
@@ -187,13 +224,11 @@ ExitCode run_all(const RunOptions& options, results::Report& report, bool& repor
   return under_way.code;
 }
 
-}  // namespace
-
 ExitCode run(const RunOptions& options, Host& host, Terminal& terminal) {
   results::Report report;
   bool reported = false;
   terminal.keep_diagnostics();
-  const ExitCode code = run_all(options, report, reported, host, terminal);
+  const ExitCode code = run_script(options, report, reported, host, terminal);
   if (terminal.options().json) terminal.document(reported ? results::report_json(report) : "");
   return code;
 }

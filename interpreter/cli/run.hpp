@@ -3,6 +3,7 @@
 #include <string>
 
 #include "interpreter/cli/project.hpp"
+#include "runtime/results/report.hpp"
 
 namespace garment::cli {
 
@@ -15,5 +16,9 @@ struct RunOptions {
 };
 
 ExitCode run(const RunOptions& options, Host& host, Terminal& terminal);
+
+/// The same without the document of `--json`: what it found goes to `report`, which is whole where `reported`.
+ExitCode run_script(const RunOptions& options, results::Report& report, bool& reported, Host& host,
+                    Terminal& terminal);
 
 }  // namespace garment::cli

@@ -22,6 +22,8 @@ class AnyDrape : public DrapeMeasures {
   std::optional<double> clearance(const std::string&) const override { return 1; }
   std::optional<double> energy() const override { return 1; }
   std::optional<double> penetrations() const override { return 1; }
+  std::optional<double> drape_coefficient(int) const override { return 1; }
+  std::optional<double> nodes(int) const override { return 1; }
   std::optional<Eigen::Vector3d> position(int) const override { return Eigen::Vector3d(1, 1, 1); }
   std::optional<Eigen::Vector3d> position(int, const design::Point2&) const override {
     return Eigen::Vector3d(1, 1, 1);
@@ -122,6 +124,12 @@ Verdict judge(Program& program, const Statement& statement, Scope& scope) {
   return verdict;
 }
 
+void check_questions(Program& program, const std::vector<const Expr*>& questions, Scope& scope) {
+  const AnyDrape any;
+  DrapeGuard guard(program, any);
+  for (const Expr* question : questions) eval(program, *question, scope);
+}
+
 void run_garment(Program& program, const Item& item) {
   const Statement& statement = *item.statement;
   Scope& scope = *item.scope;
@@ -210,10 +218,14 @@ void run_save(Program& program, const Item& item) {
            Message("G0309", "`" + path + "` has no extension; the kind of file is known by it", operand.span)
                .help("as in `save \"skirt.glb\"`"));
     const std::string_view kind = std::string_view(path).substr(dot);
-    if (kind != ".obj" && kind != ".glb" && kind != ".ply" && kind != ".svg" && kind != ".png")
+    for (const char* later : {".pdf", ".dxf", ".vtk", ".html"})
+      if (kind == later)
+        fail(program, Message("G0905", "`" + std::string(kind) + "` cannot be written yet", operand.span)
+                          .help("use .obj, .glb, .ply, .svg, .png or .csv"));
+    if (kind != ".csv" && kind != ".obj" && kind != ".glb" && kind != ".ply" && kind != ".svg" && kind != ".png")
       fail(program,
            Message("G0905", "`" + std::string(kind) + "` is no format that can be written", operand.span)
-               .help("use .obj, .glb, .ply, .svg or .png"));
+               .help("use .obj, .glb, .ply, .svg, .png or .csv"));
   }
   if (act.paths.empty())
     fail(program, Message("G0312", "`save` needs a file name in quotes", statement.keyword.span));

@@ -15,6 +15,9 @@ void run_assert(Program& program, const Item& item);
 /// A `measure` after it was evaluated, or one that asks the drape.
 void run_measure(Program& program, const Item& item);
 
+/// Evaluates expressions that may ask a drape, for their sense. Reports and throws Stop.
+void check_questions(Program& program, const std::vector<const Expr*>& questions, Scope& scope);
+
 struct Verdict {
   bool passed = false;
   std::string found, expected;

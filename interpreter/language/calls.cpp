@@ -223,6 +223,13 @@ Value eval_call(Program& program, const Expr& expr, Scope& scope) {
       return edge_at(program, expr, *edge, scope);
     if (const auto* curve = base.as<CurveValue>(); curve != nullptr && callee.text == "at")
       return curve_at(program, expr, (*curve)->curve, scope);
+    if (const auto* panel = base.as<PanelValue>(); panel != nullptr && callee.text == "at") {
+      if (expr.children.size() != 2)
+        fail(program, Message("G0307", "`at` takes one point of a panel", expr.span).help("as in `front.at((3 cm, 4 cm))`"));
+      PointValue p = eval_point(program, expr.children[1], scope, 2, kLength, "`at`");
+      p.panel = panel->panel;
+      return Value{p};
+    }
     if (base.as<DrapedValue>() != nullptr) {
       if (const FunctionRecord* record = find_function("draped." + callee.text))
         return call_builtin(program, *record, expr, scope);

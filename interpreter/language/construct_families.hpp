@@ -21,6 +21,7 @@ inline constexpr ConstructFamily kConstructFamilies[] = {
     {"Assembly", detail::assembly_constructs},
     {"Components", detail::structure_constructs},
     {"Scene", detail::scene_constructs},
+    {"Holds, forces, motion", detail::forces_constructs},
     {"Acts", detail::acts_constructs},
     {"Words whose meaning is still to come", detail::later_constructs},
 };

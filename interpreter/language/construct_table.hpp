@@ -79,6 +79,7 @@ std::vector<ConstructRecord> panel_constructs();
 std::vector<ConstructRecord> assembly_constructs();
 std::vector<ConstructRecord> structure_constructs();
 std::vector<ConstructRecord> scene_constructs();
+std::vector<ConstructRecord> forces_constructs();
 std::vector<ConstructRecord> acts_constructs();
 std::vector<ConstructRecord> later_constructs();
 }  // namespace detail

@@ -1,6 +1,7 @@
 // Acts: they run from top to bottom.
 #include "interpreter/language/acts.hpp"
 #include "interpreter/language/construct_table.hpp"
+#include "interpreter/language/studies.hpp"
 
 namespace garment::interpreter::detail {
 
@@ -26,6 +27,25 @@ std::vector<ConstructRecord> acts_constructs() {
        .doc = "writes files below the output folder, by extension",
        .example = "save \"skirt.glb\", \"skirt.svg\"",
        .run = run_save},
+      {.keyword = "release",
+       .form = "release PIN | CLAMP",
+       .doc = "lets a pin or clamp go; the next drape goes on without it",
+       .example = "release corner",
+       .run = run_release},
+      {.keyword = "record",
+       .form = "record curve VALUE, VALUE every TIME as \"FILE.csv\"",
+       .doc = "writes a curve while the garment moves",
+       .example = "record curve position(corner).y, energy every 10 ms as \"fall.csv\"",
+       .clauses = {{"every", "TIME", "how often", kTime, 1e-6, 60}, {"as", "\"FILE.csv\"", "the table it is written to"}},
+       .run = run_record},
+      {.keyword = "vary",
+       .form = "vary PARAM | THING.PROPERTY over VALUE, VALUE, ... { drape until rest; ... }",
+       .doc = "a study: makes the garment anew with each value and runs the block on it, in a folder NAME=VALUE",
+       .example = "vary long over 30 cm, 40 cm { drape until rest; save \"garment.png\" }",
+       .clauses = {{"over", "VALUE, VALUE, ...", "what it is set to, one after the other"}},
+       .has_body = true,
+       .body_keywords = {"drape", "expect", "save", "record", "release"},
+       .run = run_vary},
   };
 }
 

@@ -30,7 +30,7 @@ std::vector<ConstructRecord> scene_constructs() {
                    {"turn", "(RX, RY, RZ)", "turned by Rz Ry Rx"},
                    {"flat", "", "lies flat, face up, the panel's y away from the viewer"},
                    {"offset", "LENGTH", "distance from the body", kLength, 0, 0.5, "1 cm"},
-                   {"start", "folded", ""}},
+                   {"start", "folded", "begins folded in half"}},
        .run = run_place},
       {.keyword = "attach",
        .form = "attach EDGES [, EDGES ...] to LEVEL [slide | hold]",

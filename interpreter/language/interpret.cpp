@@ -9,6 +9,7 @@
 #include "interpreter/language/closures.hpp"
 #include "interpreter/language/declarations.hpp"
 #include "interpreter/language/fabrics.hpp"
+#include "interpreter/language/fit.hpp"
 #include "interpreter/language/layers.hpp"
 #include "interpreter/language/libraries.hpp"
 #include "interpreter/language/modifiers.hpp"
@@ -19,6 +20,7 @@
 #include "interpreter/language/placements.hpp"
 #include "interpreter/language/recipe.hpp"
 #include "interpreter/language/seams.hpp"
+#include "interpreter/language/studies.hpp"
 #include "interpreter/language/support.hpp"
 #include "interpreter/language/unused_names.hpp"
 
@@ -65,6 +67,7 @@ void run_all(Program& program) {
   check_libraries(program);
   settle_declarations(program, module);
   collect_modifiers(program, module);
+  apply_study(program);
   find_backs(program);
   check_given_parameters(program);
   for (const Item& item : module.items)
@@ -92,6 +95,7 @@ void run_all(Program& program) {
   check_bodies(program);
   if (!program.has_error) check_support(program);
   if (!program.has_error && program.options.warn_unused) check_unused(program);
+  if (!program.has_error) check_fit(program);
 }
 
 void sort_parameters(Program& program) {
@@ -176,7 +180,7 @@ Interpretation interpret(grammar::Sources& sources, grammar::SourceId source, Ho
     if (info.ready) program.garment.seams.push_back(info.seam);
   for (const auto& body : program.built) result.bodies.push_back(body != nullptr ? *body : body::Body{});
   result.garment = program.garment;
-  result.acts = program.acts;
+  result.acts = options.study ? program.study_acts : program.acts;
   result.parameters = program.parameters;
   result.measures = program.measures;
   result.solved = program.solved;

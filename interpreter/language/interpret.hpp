@@ -19,6 +19,12 @@ namespace garment::interpreter {
 
 struct Program;
 
+/// One round of a `vary`: the garment with this value, and the acts of its block alone.
+struct Study {
+  std::size_t ordinal = 0;  ///< of the `vary`, see VaryAct
+  std::string target, value;
+};
+
 struct InterpretOptions {
   std::string stdlib_dir;                     ///< folder of the standard library
   std::vector<std::string> library_dirs;      ///< where `use NAME` looks first
@@ -30,6 +36,7 @@ struct InterpretOptions {
   /// tell, and Interpretation::bodies is empty for the others.
   bool build_bodies = true;
   bool warn_unused = false;  ///< of names that a whole script never uses; at the prompt they may still be
+  std::optional<Study> study{};
   /// How bodies are built; empty: body::build_body.
   std::function<body::BodyResult(const design::Body&, Host&, const std::string&)> build_body;
 };
@@ -56,8 +63,24 @@ struct MeasureAct {
   void* scope = nullptr;  ///< opaque
   std::string text;
 };
+/// `release`: one of the two is an index.
+struct ReleaseAct {
+  int pin = -1;    ///< into Garment::pins
+  int clamp = -1;  ///< into Scene::clamps
+};
+struct RecordAct {
+  std::string x, y;  ///< as written
+  double every = 0;  ///< s
+  std::string path;
+};
+/// `vary TARGET over VALUE, ...`: each value is a script of its own, made with InterpretOptions::study.
+struct VaryAct {
+  std::size_t ordinal = 0;  ///< which `vary` of the script, from 0
+  std::string target;       ///< as written
+  std::vector<std::string> values;
+};
 struct Act {
-  std::variant<DrapeAct, ExpectAct, SaveAct, MeasureAct> act;
+  std::variant<DrapeAct, ExpectAct, SaveAct, MeasureAct, ReleaseAct, RecordAct, VaryAct> act;
   grammar::Span span;
 };
 
@@ -127,6 +150,9 @@ class DrapeMeasures {
       const std::string& panel) const = 0;                 ///< least distance to a body, m
   virtual std::optional<double> energy() const = 0;        ///< J
   virtual std::optional<double> penetrations() const = 0;  ///< count
+  /// Of one panel, by its index: share of shadow, and folds of the rim.
+  virtual std::optional<double> drape_coefficient(int) const { return std::nullopt; }
+  virtual std::optional<double> nodes(int) const { return std::nullopt; }
   /// Of a pin by its index in Garment::pins.
   virtual std::optional<Eigen::Vector3d> position(int pin) const = 0;
   /// Of a point of a panel, panel coordinates in m.

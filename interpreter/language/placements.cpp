@@ -78,6 +78,12 @@ class Placer {
     if (on != nullptr) wrap(*on, design::Placement::Kind::on_part);
     if (around != nullptr) wrap(*around, design::Placement::Kind::around);
     if (on == nullptr && around == nullptr) rigid();
+    if (const BoundClause* start = clauses_.find("start")) {
+      const Expr& word = clauses_.value(*start);
+      if (word.kind != ExprKind::name || word.text != "folded")
+        fail(program_, Message("G0313", "`start` takes `folded`", word.span));
+      placement_.folded = true;
+    }
     clauses_.finish();
     return placement_;
   }

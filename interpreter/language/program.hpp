@@ -177,6 +177,8 @@ struct Program {
   std::deque<Part> parts;             ///< ThingValue::index of a `part` is its place here
   std::set<int> placed;
   std::vector<Act> acts;
+  std::size_t studies = 0;      ///< `vary` met so far
+  std::vector<Act> study_acts;  ///< of InterpretOptions::study
   std::vector<MeasureValue> measures;
   std::vector<SolvedValue> solved;
   int solving = 0;  ///< solves within each other that are being tried

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "interpreter/language/unparse_cloth.hpp"
+#include "interpreter/language/unparse_scene.hpp"
 #include "interpreter/language/unparse_seam.hpp"
 #include "interpreter/language/unparse_text.hpp"
 #include "interpreter/language/unparse_things.hpp"
@@ -61,6 +62,7 @@ class Unparser {
       line(fmt::format("pin {} on {} at {}", names_.pins[i], names_.panels[pin.panel],
                        text::point(pin.point)));
     }
+    for (const std::string& statement : text::scene(garment_, names_)) line(statement);
     if (garment_.gravity != design::Garment{}.gravity)
       line("gravity " + text::acceleration(garment_.gravity));
     group();
@@ -242,6 +244,7 @@ class Unparser {
         statement += " offset " + text::length(place.offset);
         break;
     }
+    if (place.folded) statement += " start folded";
     line_about(place.body, statement);
   }
 

@@ -1,10 +1,13 @@
 #include "interpreter/session/drape_answers.hpp"
 
+#include "runtime/results/shadow.hpp"
+
 namespace garment::session {
 
 DrapeAnswers::DrapeAnswers(const design::Garment& garment, const std::vector<body::Body>& bodies,
                            const model::Model& model, const model::State& state, const simulator::DrapeReport& report)
     : garment_(garment),
+      bodies_(bodies),
       model_(model),
       state_(state),
       report_(report),
@@ -60,6 +63,15 @@ std::optional<double> DrapeAnswers::clearance(const std::string& panel) const {
   const results::PanelMeasure* m = measure_of(panel);
   if (!m || !m->clearance) return std::nullopt;
   return m->clearance->least;
+}
+
+std::optional<double> DrapeAnswers::drape_coefficient(int panel) const {
+  return results::drape_coefficient(model_, state_, bodies_, panel);
+}
+
+std::optional<double> DrapeAnswers::nodes(int panel) const {
+  const std::optional<int> folds = results::count_nodes(model_, state_, panel);
+  return folds ? std::optional<double>(*folds) : std::nullopt;
 }
 
 std::optional<double> DrapeAnswers::penetrations() const {

@@ -20,6 +20,8 @@ class DrapeAnswers final : public interpreter::DrapeMeasures {
   std::optional<double> clearance(const std::string& panel) const override;
   std::optional<double> energy() const override { return report_.energy; }
   std::optional<double> penetrations() const override;
+  std::optional<double> drape_coefficient(int panel) const override;
+  std::optional<double> nodes(int panel) const override;
   std::optional<Eigen::Vector3d> position(int pin) const override;
   std::optional<Eigen::Vector3d> position(int panel, const design::Point2& point) const override;
 
@@ -28,6 +30,7 @@ class DrapeAnswers final : public interpreter::DrapeMeasures {
   const results::PanelMeasure* measure_of(const std::string& panel) const;
 
   const design::Garment& garment_;
+  const std::vector<body::Body>& bodies_;
   const model::Model& model_;
   const model::State& state_;
   const simulator::DrapeReport& report_;

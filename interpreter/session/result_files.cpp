@@ -19,10 +19,11 @@ ResultFile make_result_file(const std::string& name, const design::Garment& garm
   if (ending == ".obj") return {io::write_obj(model, state), "", ""};
   if (ending == ".glb") return {io::write_glb(model, state, bodies), "", ""};
   if (ending == ".ply") return {io::write_ply(model, state, results::vertex_strain(model, state)), "", ""};
+  if (ending == ".csv") return {io::write_csv(model, state, results::vertex_strain(model, state)), "", ""};
   if (ending == ".svg") return {io::write_pattern_svg(garment, model), "", ""};
   if (ending == ".png") return {render::render_sheet(render::make_scene(model, state, bodies)), "", ""};
   return {std::nullopt, fmt::format("`save \"{}\"`: `{}` is no format that can be written", name, ending),
-          "use .obj, .glb, .ply, .svg or .png"};
+          "use .obj, .glb, .ply, .svg, .png or .csv"};
 }
 
 }  // namespace garment::session

@@ -14,6 +14,7 @@
 #include "runtime/design/panel.hpp"
 #include "runtime/design/pressing.hpp"
 #include "runtime/design/region.hpp"
+#include "runtime/design/scene.hpp"
 #include "runtime/design/seam.hpp"
 
 namespace garment::design {
@@ -89,6 +90,7 @@ struct Garment {
   std::vector<Starch> starches;
   std::vector<Attachment> attachments;
   std::vector<Pin> pins;
+  Scene scene;
   Eigen::Vector3d gravity{0, -9.80665, 0};
 };
 

@@ -76,6 +76,7 @@ struct Placement {
   std::string part;            ///< "front", "back", "left", "right", "arm.left", "leg.right", "torso", ...
   std::string edge, level;     ///< edge whose mean height comes to the level; empty: the panel's centre at the part's middle
   double offset = 0.01;        ///< distance from the body, m
+  bool folded = false;         ///< starts folded in half
 };
 
 /// A flat piece of cloth. The outline is the stitch line, one closed loop in drawn order, either sense; the cloth's face

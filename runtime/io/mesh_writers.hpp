@@ -31,4 +31,9 @@ std::string write_ply(const model::Model& model, const model::State& state,
 std::string write_glb(const model::Model& model, const model::State& state,
                       const std::vector<body::Body>& bodies);
 
+/// A table for analysis, a row for each vertex: panel, its place in the pattern and in space (m), tensile strain along
+/// warp and weft. `vertex_strain` as in write_ply.
+std::string write_csv(const model::Model& model, const model::State& state,
+                      const std::vector<Eigen::Vector2d>& vertex_strain);
+
 }  // namespace garment::io

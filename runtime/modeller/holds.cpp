@@ -95,6 +95,28 @@ void add_pin(const design::Pin& pin, const std::vector<MeshedPanel>& panels, Hol
   holds.add(particle, HoldKind::point, model.start[particle], model);
 }
 
+/// What lies between the jaws stays where it starts.
+void add_clamp(const design::Clamp& clamp, const design::Garment& garment,
+               const std::vector<BorderPanel>& outlines, const Borders& borders,
+               const std::vector<MeshedPanel>& panels, Holds& holds, model::Model& model) {
+  auto hold = [&](int panel, std::size_t vertex) {
+    Index particle = model.vertex_particle[panels[panel].first_vertex + vertex];
+    holds.add(particle, HoldKind::point, model.start[particle], model);
+  };
+  for (const design::EdgePart& part : clamp.parts) {
+    if (part.on != design::EdgePart::On::outline) continue;  // told as not modelled
+    for (int v : vertices_on(part, outlines[part.panel], borders.panels[part.panel]))
+      hold(part.panel, static_cast<std::size_t>(v));
+  }
+  if (clamp.region < 0) return;
+  for (const design::RegionPart& part : garment.regions[clamp.region].parts) {
+    const design::RegionTest test(garment.panels[part.panel], part.shape);
+    const MeshedPanel& p = panels[part.panel];
+    for (std::size_t v = 0; v < p.mesh.at.size(); ++v)
+      if (test.contains(p.mesh.at[v])) hold(part.panel, v);
+  }
+}
+
 }  // namespace
 
 void add_holds(const design::Garment& garment, const std::vector<body::Body>& bodies,
@@ -125,6 +147,8 @@ void add_holds(const design::Garment& garment, const std::vector<body::Body>& bo
       }
     }
   }
+  for (const design::Clamp& clamp : garment.scene.clamps)
+    add_clamp(clamp, garment, outlines, borders, panels, holds, model);
   for (const design::Pin& pin : garment.pins) add_pin(pin, panels, holds, model, findings);
 }
 

@@ -1,6 +1,7 @@
 #include "runtime/modeller/unmodelled.hpp"
 
 #include "runtime/modeller/unmodelled_cloth.hpp"
+#include "runtime/modeller/unmodelled_scene.hpp"
 
 namespace garment::modeller {
 namespace {
@@ -73,6 +74,7 @@ Findings find_unmodelled(const design::Garment& garment, Severity severity) {
   find_in_seams(garment, out);
   find_in_attachments(garment, out);
   find_unmodelled_cloth(garment, [&out](const std::string& what, OriginId origin) { out.say(what, origin); });
+  find_unmodelled_scene(garment, [&out](const std::string& what, OriginId origin) { out.say(what, origin); });
   return out.take();
 }
 

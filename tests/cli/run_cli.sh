@@ -124,6 +124,14 @@ run 0 check trimmed.garment --library trims --library more_trims
 run 1 check trimmed.garment --library more_trims --library trims
 complains "error[G0320]"
 
+# ---- a question before any drape, an act that cannot be run yet
+sed 's/^drape.*//' square.garment >undraped.garment
+run 1 check undraped.garment
+complains "error[G0325]"
+sed 's/^drape.*/drape for 2 s/' square.garment >timed.garment
+run 0 check timed.garment
+complains "warning[G0804]"
+
 # ---- parameters
 run 0 model square.garment
 cp out.txt model.txt
@@ -246,6 +254,41 @@ exists saves_out/cloth.obj
 sed 's/^expect.*/save "cloth.docx"/' square.garment >saves.garment
 run 1 check saves.garment
 complains "error[G0905]"
+
+# ---- a table of the drape, and formats still to come
+sed 's/^expect.*/save "cloth.csv"/' square.garment >saves.garment
+run 0 run saves.garment --no-pictures -o saves_out
+ok
+grep -q '^cloth,' saves_out/cloth.csv || fail "the table has no row of the panel"
+sed 's/^expect.*/save "cloth.dxf"/' square.garment >saves.garment
+run 1 check saves.garment
+complains "cannot be written yet"
+
+# ---- release: the cloth that hung from two corners swings down to hang from one
+sed 's/^expect.*/release two\ndrape until rest settle preview\nexpect position(two).y < 1.06 m\nexpect position(one).y == 1.1 m within 1 mm/' \
+  square.garment >released.garment
+run 0 run released.garment --no-pictures -o released_out
+sed "s/^drape.*/record curve energy, mass every 1 s as "a.csv"/" square.garment >recorded.garment
+run 0 check recorded.garment
+complains "warning[G1325]"
+run 1 run recorded.garment --no-pictures -o recorded_out
+complains "error[G1325]"
+
+# ---- a study: a round for each value, side by side
+{ grep -v '^drape\|^expect' square.garment
+  echo 'vary wide over 8 cm, 12 cm { drape until rest settle preview; expect mass < 1 kg; save "cloth.obj" }'; } >study.garment
+run 0 check study.garment
+run 0 run study.garment --no-pictures -o study_out
+exists study_out/wide=8cm/cloth.obj
+exists study_out/wide=12cm/report.json
+ok
+[ "$(grep -c 'at_rest\|at rest' study_out/study_wide.csv)" -eq 2 ] || fail "the table of the study has not two rows: $(cat study_out/study_wide.csv)"
+ok
+cmp -s study_out/wide=8cm/cloth.obj study_out/wide=12cm/cloth.obj && fail "both rounds are the same"
+sed 's/12 cm/120 cm/' study.garment >study_wrong.garment
+run 1 check study_wrong.garment
+complains "error[G0310]"
+complains "wide = 120 cm"
 
 # ---- places that cannot be written (also by root: a folder below a plain file)
 : >plain_file

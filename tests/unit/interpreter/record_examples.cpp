@@ -109,6 +109,7 @@ TEST_CASE("every example of the function table has a value") {
     INFO(example);
     REQUIRE_FALSE(example.empty());
     if (example == "strain(all)" && record.name == "all") continue;  // a value only as an argument
+    if (record.doc.ends_with("(not supported yet)")) continue;
     grammar::Sources sources;
     // An example may need a line of its own before it: `...; EXPRESSION`.
     const std::size_t cut = example.rfind("; ");

@@ -1,0 +1,95 @@
+// Questions of drape and pull tests to a finished drape.
+#include "interpreter/language/evaluate.hpp"
+#include "interpreter/language/function_table.hpp"
+
+namespace garment::interpreter::detail {
+namespace {
+
+const DrapeMeasures& drape_of(Call& call) {
+  if (call.program.drape != nullptr) return *call.program.drape;
+  fail(call.program,
+       Message("G0325", "`" + std::string(call.record.name) + "` is known only after a drape", call.expr.span)
+           .help("ask it in `expect` or `measure`"));
+}
+
+int panel_of(Call& call) {
+  if (const auto* panel = call.arguments[0].as<PanelValue>()) return panel->panel;
+  fail(call.program,
+       Message("G0306", "`" + std::string(call.record.name) + "` of " + kind_of(call.arguments[0]),
+               call.given(0) ? call.places[0]->span : call.expr.span)
+           .help("it takes one panel"));
+}
+
+Value run_drape_coefficient(Call& call) {
+  const DrapeMeasures& drape = drape_of(call);
+  if (const auto share = drape.drape_coefficient(panel_of(call))) return number_value(*share, kNumber, true);
+  fail(call.program, Message("G0325",
+                             "the drape coefficient is not known: no body carries the cloth, or the cloth is "
+                             "not larger than the body's top",
+                             call.expr.span)
+                         .help("lay a round cloth on a `cylinder` that is smaller than it"));
+}
+
+Value run_nodes(Call& call) {
+  const DrapeMeasures& drape = drape_of(call);
+  if (const auto folds = drape.nodes(panel_of(call))) return number_value(*folds, kNumber);
+  fail(call.program, Message("G0325", "the folds are not known: the panel has no rim", call.expr.span));
+}
+
+Value run_later(Call& call) {
+  fail(call.program,
+       Message("G1326", "`" + std::string(call.record.name) + "` cannot be asked of a drape yet",
+               call.expr.span)
+           .help("ask strain, shear, clearance, length, area, mass, energy, position, drape_coefficient or "
+                 "nodes"));
+}
+
+FunctionRecord later(std::string_view name, std::string_view form, std::string_view doc,
+                     std::string_view example, std::vector<std::string_view> parameters) {
+  FunctionRecord record;
+  record.name = name;
+  record.form = form;
+  record.doc = doc;
+  record.example = example;
+  record.required = parameters.size();
+  record.parameters = std::move(parameters);
+  record.run = run_later;
+  record.asks_drape = true;
+  return record;
+}
+
+}  // namespace
+
+std::vector<FunctionRecord> drape_test_functions() {
+  return {
+      {"drape_coefficient",
+       "drape_coefficient(PANEL)",
+       "shadow of a cloth that hangs over a disc, as a share of what hangs over",
+       "drape_coefficient(cloth)",
+       {"panel"},
+       1,
+       run_drape_coefficient,
+       false,
+       true},
+      {"nodes",
+       "nodes(PANEL)",
+       "folds of the rim of a cloth",
+       "nodes(cloth)",
+       {"panel"},
+       1,
+       run_nodes,
+       false,
+       true},
+      later("stress", "stress(PANEL | all)", "largest tension (not supported yet)", "stress(all)", {"panel"}),
+      later("pressure", "pressure(PANEL | all)", "largest pressure on a body (not supported yet)",
+            "pressure(all)", {"panel"}),
+      later("reaction", "reaction(CLAMP | PIN)", "force that a clamp bears (not supported yet)",
+            "reaction(corner)", {"hold"}),
+      later("slope", "slope(CURVE, RANGE)", "slope of a recorded curve (not supported yet)",
+            "slope(\"pull.csv\", 0 .. 1)", {"curve", "range"}),
+      later("loop_width", "loop_width(CURVE, AT)", "width of a recorded loop (not supported yet)",
+            "loop_width(\"pull.csv\", 0)", {"curve", "at"}),
+  };
+}
+
+}  // namespace garment::interpreter::detail

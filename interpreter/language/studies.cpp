@@ -1,0 +1,178 @@
+#include "interpreter/language/studies.hpp"
+
+#include "interpreter/language/acts.hpp"
+#include "interpreter/language/clauses.hpp"
+#include "interpreter/language/declarations.hpp"
+#include "interpreter/language/files.hpp"
+#include "interpreter/language/parts.hpp"
+
+namespace garment::interpreter {
+namespace {
+
+constexpr std::size_t kMostValues = 100;
+
+const Expr& one_operand(Program& program, const Statement& statement, const char* example) {
+  if (statement.operands.size() == 1) return statement.operands[0];
+  const bool none = statement.operands.empty();
+  fail(program, Message(none ? "G0312" : "G0313", "`" + statement.keyword.text + "` takes one name",
+                        none ? statement.keyword.span : statement.operands[1].span)
+                    .help("as in `" + std::string(example) + "`"));
+}
+
+/// What `vary` may change: a param, an argument of a part, or a property of something declared.
+void check_target(Program& program, const Expr& target, Scope& scope) {
+  const DeclaredPath path = find_path(program, target, scope);
+  if (path.declaration == nullptr) {
+    const Expr* first = &target;
+    while (first->kind == ExprKind::member && !first->children.empty()) first = &first->children[0];
+    if (first->kind == ExprKind::name)
+      fail_unknown_name(program, name_of(program, *first, scope), first->span, scope);
+    fail(program, Message("G0311", "this cannot be varied", target.span).help("name a param or a property"));
+  }
+  const std::string& keyword = path.declaration->statement->keyword.text;
+  if (path.rest.empty() && keyword != "param" && !is_argument(*path.declaration))
+    fail(program, Message("G0311",
+                          "`" + path.declaration->name + "` is a " + keyword +
+                              "; only a param can be varied as a whole",
+                          target.span)
+                      .also(path.declaration->statement->span, "declared here")
+                      .help("name one of its properties, or make it a param"));
+}
+
+/// The acts of a block, run for the first time, so that what is wrong with them is said before anything is
+/// draped.
+std::vector<Act> acts_of(Program& program, const Statement& statement, Scope& scope) {
+  std::vector<Act> others = std::move(program.acts);
+  program.acts.clear();
+  bool draped = false;
+  const auto put_back = [&] {
+    std::swap(program.acts, others);
+    return std::move(others);
+  };
+  try {
+    expand_block(program, *statement.body, scope, [&](const Statement& inner, Scope& at) {
+      const ConstructRecord* record = find_construct(inner.keyword.text);
+      if (record == nullptr || record->run == nullptr || record->declares_name ||
+          inner.keyword.text == "vary")
+        fail(program,
+             Message("G0322", "`" + inner.keyword.text + "` cannot stand in `vary`", inner.keyword.span));
+      draped = draped || inner.keyword.text == "drape";
+      record->run(program, Item{&inner, &at, nullptr});
+    });
+  } catch (const Stop&) {
+    put_back();
+    throw;
+  }
+  if (!draped)
+    report(program, Message("G1322", "nothing is draped in this `vary`", statement.keyword.span)
+                        .help("each round starts anew: begin its block with `drape until rest`"));
+  return put_back();
+}
+
+}  // namespace
+
+void run_release(Program& program, const Item& item) {
+  const Statement& statement = *item.statement;
+  const Expr& expr = one_operand(program, statement, "release corner");
+  const Value value = eval(program, expr, *item.scope);
+  ReleaseAct act;
+  if (const auto* pin = value.as<PinValue>()) {
+    act.pin = pin->pin;
+  } else if (const auto* thing = value.as<ThingValue>(); thing != nullptr && thing->keyword == "clamp") {
+    act.clamp = thing->index;
+  } else {
+    fail(program, Message("G0306", kind_of(value) + " where `release` takes a pin or a clamp", expr.span));
+  }
+  for (const Act& other : program.acts) {
+    const auto* released = std::get_if<ReleaseAct>(&other.act);
+    if (released == nullptr || released->pin != act.pin || released->clamp != act.clamp) continue;
+    fail(program,
+         Message("G1320", "`" + std::string(program.sources.text(expr.span)) + "` is released already",
+                 expr.span)
+             .also(other.span, "here"));
+  }
+  program.acts.push_back({act, statement.span});
+}
+
+void run_record(Program& program, const Item& item) {
+  const Statement& statement = *item.statement;
+  Clauses clauses(program, statement, *item.scope);
+  if (statement.operands.size() != 3 || statement.operands[0].kind != ExprKind::name ||
+      statement.operands[0].text != "curve")
+    fail(program,
+         Message("G0312", "`record` takes `curve` and two values", statement.keyword.span)
+             .help("as in `record curve position(jaw).y, reaction(jaw) every 10 ms as \"pull.csv\"`"));
+  RecordAct act;
+  clauses.need("every");
+  act.every = *clauses.quantity("every");
+  const BoundClause& as = clauses.need("as");
+  act.path = eval_text(program, clauses.value(as), *as.scope, "`as`");
+  clauses.finish();
+  checked_path(program, act.path, clauses.value(as).span);
+  if (act.path.size() < 5 || act.path.compare(act.path.size() - 4, 4, ".csv") != 0)
+    fail(program,
+         Message("G1321", "a curve is written as a table, `" + act.path + "` is none", clauses.value(as).span)
+             .help("give it a name that ends in `.csv`"));
+  check_questions(program, {&statement.operands[1], &statement.operands[2]}, *item.scope);
+  act.x = std::string(program.sources.text(statement.operands[1].span));
+  act.y = std::string(program.sources.text(statement.operands[2].span));
+  program.acts.push_back({act, statement.span});
+}
+
+void run_vary(Program& program, const Item& item) {
+  const Statement& statement = *item.statement;
+  Scope& scope = *item.scope;
+  const Expr& target = one_operand(program, statement, "vary long over 50 cm, 60 cm { drape until rest }");
+  check_target(program, target, scope);
+  Clauses clauses(program, statement, scope);
+  const BoundClause& over = clauses.need("over");
+  clauses.finish();
+  VaryAct act;
+  act.ordinal = program.studies++;
+  act.target = std::string(program.sources.text(target.span));
+  if (over.clause->values.empty())
+    fail(program, Message("G0312", "`over` needs values", over.clause->span).help("as in `over 0.2, 1, 5`"));
+  for (const Expr& value : over.clause->values) {
+    eval(program, value, scope);
+    act.values.emplace_back(program.sources.text(value.span));
+    for (std::size_t k = 0; k + 1 < act.values.size(); ++k)
+      if (act.values[k] == act.values.back())
+        fail(program, Message("G1323", "`" + act.values.back() + "` stands twice in `over`", value.span)
+                          .also(over.clause->values[k].span, "first here"));
+  }
+  if (act.values.size() > kMostValues)
+    fail(program, Message("G1324", std::to_string(act.values.size()) + " values; a study has 100 at most",
+                          over.clause->span));
+  if (!statement.body)
+    fail(program, Message("G0312", "`vary` needs a block of acts", statement.keyword.span)
+                      .help("as in `vary long over 50 cm, 60 cm { drape until rest; save \"skirt.png\" }`"));
+  std::vector<Act> acts = acts_of(program, statement, scope);
+  const auto& study = program.options.study;
+  if (study && study->ordinal == act.ordinal) program.study_acts = std::move(acts);
+  program.acts.push_back({act, statement.span});
+}
+
+void apply_study(Program& program) {
+  const auto& study = program.options.study;
+  if (!study) return;
+  Statement& made = program.made_statements.emplace_back();
+  made.keyword = {"=", {}, {}};
+  for (const std::string* text : {&study->target, &study->value}) {
+    const grammar::SourceId source = program.sources.add("vary " + study->target, *text);
+    grammar::ExpressionResult parsed = grammar::parse_expression(program.sources, source, vocabulary());
+    if (!parsed.diagnostics.empty()) throw Stop{};  // the script that holds it was refused
+    made.operands.push_back(std::move(parsed.expr));
+  }
+  made.span = made.operands[0].span;
+  const DeclaredPath path = find_path(program, made.operands[0], *program.main->scope);
+  if (path.declaration == nullptr) throw Stop{};
+  const Override change{path.rest, &made.operands[1], program.main->scope, made.operands[1].span, false, -1};
+  for (Override& other : path.declaration->overrides)
+    if (other.path == path.rest) {
+      other = change;
+      return;
+    }
+  path.declaration->overrides.push_back(change);
+}
+
+}  // namespace garment::interpreter
