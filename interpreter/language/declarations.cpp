@@ -71,7 +71,7 @@ const grammar::Name* declared_name(const Statement& statement, grammar::Name& ma
 class Registrar {
  public:
   /// Takes statements of `module` into `root`; of a part, under its name.
-  Registrar(Program& program, Module& module, Scope& root, const Part* part)
+  Registrar(Program& program, Module& module, Scope& root, Part* part)
       : program_(program),
         module_(module),
         root_(root),
@@ -100,6 +100,7 @@ class Registrar {
     try {
       run();
     } catch (const Stop&) {
+      if (part_ != nullptr) part_->broken = true;
     }
   }
 
@@ -250,7 +251,7 @@ class Registrar {
   Program& program_;
   Module& module_;
   Scope& root_;
-  const Part* part_;
+  Part* part_;
   std::vector<Item>& all_;
 };
 
@@ -345,7 +346,7 @@ void register_module(Program& program, Module& module) {
       .take_block(module.script.statements, *module.scope, false);
 }
 
-void register_part(Program& program, const Part& part, const grammar::Block& block) {
+void register_part(Program& program, Part& part, const grammar::Block& block) {
   Registrar(program, *part.component->module, *part.scope, &part).take_block(block, *part.scope, false);
 }
 

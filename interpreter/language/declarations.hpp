@@ -10,9 +10,9 @@ namespace garment::interpreter {
 /// is evaluated but loop ranges and conditions.
 void register_module(Program& program, Module& module);
 
-/// Takes in the block of a component as the block of a part: what it declares is known in the part's scope, and in the
-/// garment under the part's name.
-void register_part(Program& program, const Part& part, const grammar::Block& block);
+/// Takes in the block of a component as the block of a part: what it declares is known in the part's scope,
+/// and in the garment under the part's name.
+void register_part(Program& program, Part& part, const grammar::Block& block);
 
 /// Gives every panel, body, seam and pin of the script its index, and attaches assignments to what they
 /// change.

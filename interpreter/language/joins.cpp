@@ -75,6 +75,8 @@ Value evaluate_join(Program& program, Declaration& declaration) {
   const std::size_t first = program.diagnostics.size();
   const Expr& side = statement.clauses[0].values[0];
   if (port_of(program, side, *declaration.scope) == nullptr) {
+    for (const Part& part : program.parts)
+      if (part.broken) throw Stop{};                              // the port may be what was refused
     const Value value = eval(program, side, *declaration.scope);  // a name that is not there is said first
     fail(program,
          Message("G1226",

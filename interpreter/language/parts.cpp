@@ -300,7 +300,7 @@ Value part_member(Program& program, const Expr& expr, const ThingValue& thing, c
 }
 
 void fail_part_member(Program& program, const Part& part, const std::string& name, Span span) {
-  if (part.component->module->has_broken) throw Stop{};
+  if (part.broken || part.component->module->has_broken) throw Stop{};
   std::vector<std::string> names;
   for (const auto& [key, declaration] : part.scope->declared) names.push_back(key);
   const std::vector<std::string> ports = names_of(*part.scope, "port");

@@ -59,6 +59,7 @@ struct Part {
   Scope* scope = nullptr;
   Span span;  ///< the `part` statement
   int depth = 1;
+  bool broken = false;  ///< something of its block was refused: what is missing in it is no second mistake
 };
 
 struct Declaration {
@@ -104,7 +105,7 @@ struct Module {
   std::string name;
   bool library = false;
   int depth = 0;
-  bool loading = false;  ///< its `use` statements are being run
+  bool loading = false;     ///< its `use` statements are being run
   bool has_broken = false;  ///< a broken statement may have declared anything: unknown names stay unsaid
   std::map<std::string, Span> uses;  ///< name -> where it is used here
   Span used_at{};                    ///< of a library: the `use` in the script that leads to it
@@ -137,8 +138,8 @@ struct PanelInfo {
 
 /// `start at X`: the place where closed rings begin.
 struct SeamStart {
-  int seam = -1, zip = -1;    ///< where one of these ends
-  int panel = -1;             ///< or a point of a panel
+  int seam = -1, zip = -1;  ///< where one of these ends
+  int panel = -1;           ///< or a point of a panel
   design::Point2 point{0, 0};
   Span span;
 };
