@@ -23,7 +23,6 @@ inline constexpr ConstructFamily kConstructFamilies[] = {
     {"Scene", detail::scene_constructs},
     {"Holds, forces, motion", detail::forces_constructs},
     {"Acts", detail::acts_constructs},
-    {"Words whose meaning is still to come", detail::later_constructs},
 };
 
 }  // namespace garment::interpreter

@@ -81,7 +81,6 @@ std::vector<ConstructRecord> structure_constructs();
 std::vector<ConstructRecord> scene_constructs();
 std::vector<ConstructRecord> forces_constructs();
 std::vector<ConstructRecord> acts_constructs();
-std::vector<ConstructRecord> later_constructs();
 }  // namespace detail
 
 }  // namespace garment::interpreter
