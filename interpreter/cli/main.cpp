@@ -9,6 +9,7 @@
 #include "interpreter/cli/lsp.hpp"
 #include "interpreter/cli/reference_page.hpp"
 #include "interpreter/cli/run.hpp"
+#include "interpreter/repl/repl.hpp"
 #include "interpreter/service/textmate.hpp"
 #include "runtime/base/parallel.hpp"
 
@@ -45,6 +46,7 @@ struct Options {
   ImportOptions import_options;
   GoldenOptions golden;
   bool whole_check = false;
+  garment::repl::ReplOptions repl;
   std::string parse_file, code;
   bool stdio = true, textmate = false;
 };
@@ -72,7 +74,7 @@ void add_project(CLI::App* command, ProjectOptions& p) {
 int main(int argc, char** argv) {
   Options o;
   o.run.project.stdlib_dir = o.project.stdlib_dir = GARMENT_STDLIB_DIR;
-  o.golden.stdlib_dir = GARMENT_STDLIB_DIR;
+  o.golden.stdlib_dir = o.repl.stdlib_dir = GARMENT_STDLIB_DIR;
   CLI::App app{std::string(kExamples) + "\nGarment describes garments and drapes them."};
   app.name("garment");
   app.set_version_flag("--version", std::string("garment ") + GARMENT_VERSION);
@@ -120,6 +122,20 @@ int main(int argc, char** argv) {
   add_common(test_command, o);
   auto* limits_command = app.add_subcommand("limits", "what a script may cost");
   add_common(limits_command, o);
+  auto* repl_command = app.add_subcommand("repl", "keep a script live at a prompt: edit, ask, drape");
+  repl_command->add_option("file", o.repl.file, "script to open; without it the script is empty");
+  repl_command->add_option("-o,--out", o.repl.out, "folder for what `save` and `:view` write (default: the script's name, here)");
+  repl_command->add_option("--library", o.repl.library_dirs, "folder where `use NAME` looks first; may be given again")
+      ->allow_extra_args(false);
+  repl_command->add_option("--allow-read", o.repl.allow_read, "let the script read below this folder too (may be repeated)")
+      ->allow_extra_args(false);
+  repl_command->add_option("--allow-write", o.repl.allow_write, "let `save` write below this folder too (may be repeated)")
+      ->allow_extra_args(false);
+  repl_command->add_flag("--plain", o.repl.plain, "text that is the same in every run: no times, colours, progress");
+  repl_command->add_option("--max-steps", o.repl.max_steps, "let a drape give up after so many steps")->check(CLI::Range(1, 1000000));
+  repl_command->add_option("--threads", o.threads, "threads to use (results do not depend on it)")->check(CLI::Range(1, 256));
+  repl_command->footer("With input that is no terminal the entries are echoed, and the exit code is that of the first entry that went\n"
+                       "wrong: 1 refused, 4 the simulation failed or a file was not written, 5 an expect failed.");
   auto* explain_command = app.add_subcommand("explain", "the long text of a diagnostic code");
   explain_command->add_option("code", o.code, "for example G0312")->required();
   add_common(explain_command, o);
@@ -152,6 +168,7 @@ int main(int argc, char** argv) {
     return kOk;
   }
   if (*limits_command) return show_limits(terminal);
+  if (*repl_command) return garment::repl::run_repl(o.repl, host);
   if (*test_command) return run_goldens(o.golden, host, terminal);
   if (*lsp_command) return serve_editor(o.project.stdlib_dir, host);
   return explain(o.code, terminal);

@@ -5,25 +5,30 @@
 namespace garment::session {
 
 DrapeAnswers::DrapeAnswers(const design::Garment& garment, const std::vector<body::Body>& bodies,
-                           const model::Model& model, const model::State& state, const simulator::DrapeReport& report)
-    : garment_(garment),
-      bodies_(bodies),
-      model_(model),
-      state_(state),
-      report_(report),
-      strain_(results::measure_strain(model, state)),
-      measures_(results::measure(model, state, bodies)) {}
+                           const model::Model& model, const model::State& state,
+                           const simulator::DrapeReport& report)
+    : garment_(garment), bodies_(bodies), model_(model), state_(state), report_(report) {}
+
+const results::StrainReport& DrapeAnswers::strains() const {
+  if (!strain_) strain_ = results::measure_strain(model_, state_);
+  return *strain_;
+}
+
+const results::Measures& DrapeAnswers::measures() const {
+  if (!measures_) measures_ = results::measure(model_, state_, bodies_);
+  return *measures_;
+}
 
 const results::PanelStrain* DrapeAnswers::strain_of(const std::string& panel) const {
-  if (panel.empty()) return &strain_.all;
-  for (const results::PanelStrain& s : strain_.panels)
+  if (panel.empty()) return &strains().all;
+  for (const results::PanelStrain& s : strains().panels)
     if (s.panel == panel) return &s;
   return nullptr;
 }
 
 const results::PanelMeasure* DrapeAnswers::measure_of(const std::string& panel) const {
-  if (panel.empty()) return &measures_.all;
-  for (const results::PanelMeasure& m : measures_.panels)
+  if (panel.empty()) return &measures().all;
+  for (const results::PanelMeasure& m : measures().panels)
     if (m.panel == panel) return &m;
   return nullptr;
 }
@@ -42,7 +47,8 @@ std::optional<double> DrapeAnswers::length(const std::vector<design::EdgePart>& 
   double sum = 0;
   for (const design::EdgePart& p : parts) {
     const geometry::Curve& curve = design::edge_of(garment_.panels[p.panel], p).curve;
-    auto length = results::draped_length(model_, state_, p.panel, curve, std::min(p.from, p.to), std::max(p.from, p.to));
+    auto length = results::draped_length(model_, state_, p.panel, curve, std::min(p.from, p.to),
+                                         std::max(p.from, p.to));
     if (!length) return std::nullopt;
     sum += *length;
   }
@@ -88,7 +94,9 @@ std::optional<Eigen::Vector3d> DrapeAnswers::position(int panel, const design::P
   const model::PanelRange& range = model_.panels[panel];
   model::Index best = -1;
   for (model::Index v = range.first_vertex; v < range.first_vertex + range.n_vertices; ++v)
-    if (best < 0 || (model_.vertex_uv[v] - point).squaredNorm() < (model_.vertex_uv[best] - point).squaredNorm()) best = v;
+    if (best < 0 ||
+        (model_.vertex_uv[v] - point).squaredNorm() < (model_.vertex_uv[best] - point).squaredNorm())
+      best = v;
   if (best < 0) return std::nullopt;
   return state_.position[model_.vertex_particle[best]];
 }

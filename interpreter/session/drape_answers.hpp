@@ -9,8 +9,8 @@ namespace garment::session {
 
 class DrapeAnswers final : public interpreter::DrapeMeasures {
  public:
-  DrapeAnswers(const design::Garment& garment, const std::vector<body::Body>& bodies, const model::Model& model,
-               const model::State& state, const simulator::DrapeReport& report);
+  DrapeAnswers(const design::Garment& garment, const std::vector<body::Body>& bodies,
+               const model::Model& model, const model::State& state, const simulator::DrapeReport& report);
 
   std::optional<double> strain(const std::string& panel) const override;
   std::optional<double> shear(const std::string& panel) const override;
@@ -26,6 +26,8 @@ class DrapeAnswers final : public interpreter::DrapeMeasures {
   std::optional<Eigen::Vector3d> position(int panel, const design::Point2& point) const override;
 
  private:
+  const results::StrainReport& strains() const;
+  const results::Measures& measures() const;
   const results::PanelStrain* strain_of(const std::string& panel) const;
   const results::PanelMeasure* measure_of(const std::string& panel) const;
 
@@ -34,8 +36,8 @@ class DrapeAnswers final : public interpreter::DrapeMeasures {
   const model::Model& model_;
   const model::State& state_;
   const simulator::DrapeReport& report_;
-  results::StrainReport strain_;
-  results::Measures measures_;
+  mutable std::optional<results::StrainReport> strain_;  ///< made when first asked
+  mutable std::optional<results::Measures> measures_;
 };
 
 }  // namespace garment::session

@@ -12,10 +12,11 @@ constexpr std::size_t kWorthCoarse = 2000;  // particles from which a coarser gr
 }  // namespace
 
 std::vector<model::Model> coarse_models(const design::Garment& garment, const std::vector<body::Body>& bodies,
-                                        const model::Model& fine) {
+                                        const model::Model& fine, bool dress) {
   std::vector<model::Model> models;
   std::size_t particles = fine.n_particles();
   modeller::ModelOptions options;
+  options.dress = dress;
   while (particles > kWorthCoarse) {
     options.coarsen *= 2;
     modeller::ModelResult built = modeller::build_model(garment, bodies, options);

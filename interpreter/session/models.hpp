@@ -8,9 +8,10 @@
 
 namespace garment::session {
 
-/// Models at 2^k times the stated grid spacing, coarsest first, `fine` not among them; empty for small garments and where
-/// a panel is too small for a coarser grid. `bodies` are those of the garment, in the same order.
+/// Models at 2^k times the stated grid spacing, coarsest first, `fine` not among them; empty for small
+/// garments and where a panel is too small for a coarser grid. `bodies` are those of the garment, in the same
+/// order.
 std::vector<model::Model> coarse_models(const design::Garment& garment, const std::vector<body::Body>& bodies,
-                                        const model::Model& fine);
+                                        const model::Model& fine, bool dress = true);
 
 }  // namespace garment::session

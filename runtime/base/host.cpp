@@ -15,16 +15,18 @@
 #include <utility>
 
 #include "runtime/base/access.hpp"
+#include "runtime/base/interrupt.hpp"
 
 namespace garment {
 namespace {
 
 volatile std::sig_atomic_t interrupt_count = 0;
+volatile std::sig_atomic_t survives = 0;
 
 extern "C" void on_interrupt(int) {
   // A second Ctrl-C means "now": give the signal back to the system.
   interrupt_count = interrupt_count + 1;
-  if (interrupt_count > 1) {
+  if (interrupt_count > 1 && survives == 0) {
     std::signal(SIGINT, SIG_DFL);
     std::raise(SIGINT);
   }
@@ -131,6 +133,9 @@ class SystemHost final : public Host {
 };
 
 }  // namespace
+
+void survive_interrupts() { survives = 1; }
+void forget_interrupts() { interrupt_count = 0; }
 
 Host& system_host() {
   static SystemHost host;

@@ -183,7 +183,7 @@ ModelResult build_model(const design::Garment& garment, const std::vector<body::
   if (!add_particles(garment, panels, areas, particle, regions, model, findings)) return result;
   add_elements(garment, panels, regions, model);
   add_bending(panels, regions, model);
-  if (!place_panels(garment, bodies, model, findings)) return result;
+  if (!place_panels(garment, bodies, model, findings, options.dress)) return result;
   add_holds(garment, bodies, outlines, borders, panels, model, findings);
   if (!has_errors(findings)) result.model = std::move(model);
   return result;

@@ -17,6 +17,9 @@ struct ModelOptions {
   /// grid of two spacings across its mean width, or what it states if that is coarser still.
   double coarsen = 1;
   std::size_t max_particles = kMaxParticles;
+  /// Keep placed panels out of the bodies. False where the shape comes from elsewhere, and the start with its places of
+  /// pins is not used: it takes most of the time.
+  bool dress = true;
 };
 
 struct ModelResult {

@@ -323,7 +323,7 @@ void average_shared(const std::vector<Vector3d>& place, model::Model& model) {
 }  // namespace
 
 bool place_panels(const design::Garment& garment, const std::vector<body::Body>& bodies, model::Model& model,
-                  Findings& findings) {
+                  Findings& findings, bool dress) {
   Workspace w{garment, bodies, model, findings, std::vector<Vector3d>(model.n_vertices(), Vector3d::Zero()),
               std::vector<bool>(garment.panels.size(), false)};
   bool ok = place_rings(w);
@@ -344,14 +344,14 @@ bool place_panels(const design::Garment& garment, const std::vector<body::Body>&
       follow_arms(garment, b, model, w.place);
       follow_head(garment, b, model, w.place);
       follow_legs(garment, b, model, w.place);
-      clear_panels(garment, b, model, w.place);
+      if (dress) clear_panels(garment, b, model, w.place);
     }
   if (any_rigid && any_person) part_panels(garment, model, w.place);
   ok = ok && place_from_seams(w);
-  if (any_rigid && any_person && ok)
+  if (dress && any_rigid && any_person && ok)
     spread_seams(garment, model, w.place);
   average_shared(w.place, model);
-  if (any_rigid && ok)
+  if (dress && any_rigid && ok)
     for (const body::Body& b : bodies) clear_start(b, model);
   return ok;
 }

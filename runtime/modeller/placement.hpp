@@ -12,8 +12,8 @@ namespace garment::modeller {
 
 /// Fills `model.start` [n_particles] from the flat positions (`vertex_uv`) and the placements of `garment.panels`, which
 /// stand in the order of `model.panels`. A particle that several panels share starts at the mean of its places. Wraps
-/// keep lengths within 1 %. Returns false, with findings that name the panel, where no place could be found.
+/// keep lengths within 1 %. With `dress`, panels placed at a point of space are moved out of persons. Returns false, with findings that name the panel, where no place could be found.
 bool place_panels(const design::Garment& garment, const std::vector<body::Body>& bodies, model::Model& model,
-                  Findings& findings);
+                  Findings& findings, bool dress = true);
 
 }  // namespace garment::modeller

@@ -80,7 +80,7 @@ const std::map<std::string, std::string> kLibraries = {
     {"fmt", "fmt"},        {"Eigen", "Eigen"},  {"tbb", "oneTBB"},
     {"oneapi", "oneTBB"},  {"tao", "PEGTL"},    {"fcl", "FCL"},
     {"embree3", "Embree"}, {"png.h", "libpng"}, {"nlohmann", "nlohmann-json"},
-    {"CLI", "CLI11"},
+    {"CLI", "CLI11"},      {"histedit.h", "libedit"},
 };
 
 bool may_use(const Table& table, const std::string& room, const std::string& library) {
@@ -192,7 +192,7 @@ TEST_CASE("files, clock and terminal have one place each") {
   };
   const Rule rules[] = {
       {"terminal", std::regex(R"(\b(isatty|tcgetattr|ioctl|stdout|stderr|stdin)\b|std::(cout|cerr|cin)\b)"),
-       std::regex("interpreter/cli/.*")},
+       std::regex("interpreter/(cli|repl)/.*")},
       {"files", std::regex(R"(\b(fopen|freopen|ifstream|ofstream|fstream|mkostemps)\b)"),
        std::regex("runtime/base/host\\.cpp")},
       {"clock", std::regex(R"(std::chrono|\b(gettimeofday|clock_gettime)\b)"),

@@ -1,0 +1,184 @@
+// Acts at the prompt: they run at once, on the shape as it hangs.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "interpreter/session/models.hpp"
+#include "interpreter/session/result_files.hpp"
+#include "interpreter/session/session.hpp"
+#include "runtime/base/number.hpp"
+#include "runtime/modeller/transfer.hpp"
+#include "runtime/results/report.hpp"
+#include "runtime/results/strain.hpp"
+#include "runtime/simulator/drape_again.hpp"
+#include "runtime/simulator/drape_levels.hpp"
+
+namespace garment::session {
+namespace {
+
+using interpreter::Act;
+
+Outcome outcome_of(simulator::DrapeStatus status) {
+  if (status == simulator::DrapeStatus::at_rest) return Outcome::done;
+  return status == simulator::DrapeStatus::interrupted ? Outcome::interrupted : Outcome::failed;
+}
+
+std::string summary(const model::Model& model, const model::State& state,
+                    const simulator::DrapeReport& report) {
+  const std::size_t cuts = report.self_intersections + report.body_intersections + report.inside_body;
+  return fmt::format("{}: {} step{}, residual {} of the weight, largest strain {}%, {}",
+                     results::status_name(report.status), report.steps, report.steps == 1 ? "" : "s",
+                     format_number(report.residual, 2),
+                     format_number(100 * results::measure_strain(model, state).all.any.largest, 2),
+                     cuts == 0 ? "nothing intersects" : fmt::format("{} intersections", cuts));
+}
+
+}  // namespace
+
+Answer Session::act(const Entry& entry) {
+  for (const grammar::Statement& statement : entry.script.statements)
+    if (!is_act(statement))
+      return refuse(
+          "G1503", fmt::format("`{}` stands among acts in one entry", statement.keyword.text),
+          "type it as an entry of its own: declarations are written into the script, acts run at once");
+  // Understood as if it stood at the end of the script; the script itself stays as it is.
+  Patch patch(stage_.text + "\n");
+  const std::uint32_t end = static_cast<std::uint32_t>(patch.text().size());
+  patch.insert(end, "", {entry.text, 0}, "\n");
+  const std::shared_ptr<Evaluated> evaluated = workshop_.evaluate(patch.text());
+  grammar::Diagnostics diagnostics = evaluated->result.diagnostics;
+  show_as_typed(*evaluated, diagnostics, patch, entry.text);
+  if (!evaluated->result.ok())
+    return {Outcome::refused, shown(diagnostics, evaluated->sources, Severity::error)};
+  acts_entry_ = entry.text;
+  Answer answer = run_acts(*evaluated, stage_.evaluated->result.acts.size());
+  if (answer.outcome == Outcome::done && answer.text.empty()) answer.text = "ok\n";  // an `assert` that holds
+  return answer;
+}
+
+Answer Session::run_acts(Evaluated& evaluated, std::size_t from) {
+  Answer all;
+  // The acts may lie in a copy of the vector that a drape's new stage does not touch.
+  const std::vector<Act> acts(evaluated.result.acts.begin() +
+                                  static_cast<std::ptrdiff_t>(std::min(from, evaluated.result.acts.size())),
+                              evaluated.result.acts.end());
+  for (const Act& act : acts) {
+    const Answer one = perform(evaluated, act);
+    all.text += one.text;
+    if (one.outcome != Outcome::done) all.outcome = one.outcome;
+    if (one.outcome != Outcome::done && one.outcome != Outcome::unmet) break;
+  }
+  return all;
+}
+
+Answer Session::perform(Evaluated& evaluated, const Act& act) {
+  if (!stage_.modelled->model || !stage_.shape.state) {
+    std::string help = "declare panels, their fabric, seams and places first";
+    if (!stage_.modelled->diagnostics.empty()) help = "`:warnings` says why";
+    return refuse("G1504", "there is no model to drape or ask", help);
+  }
+  if (const auto* drape = std::get_if<interpreter::DrapeAct>(&act.act)) {
+    if (!drape->until_rest)
+      return refuse("G0804", "`drape for` a time is not supported yet", "write `drape until rest`");
+    return drape_now(drape->settle);
+  }
+  if (const auto* save = std::get_if<interpreter::SaveAct>(&act.act)) return save_files(*save);
+  const auto* expect = std::get_if<interpreter::ExpectAct>(&act.act);
+  const auto* measure = std::get_if<interpreter::MeasureAct>(&act.act);
+  if (expect == nullptr && measure == nullptr)
+    return refuse("G1504", "this act runs in `garment run` only, not at the prompt",
+                  "save the script and run it");
+  if (!stage_.shape.draped)
+    return refuse("G0325", "nothing was draped yet, so there is nothing to ask",
+                  "type `drape until rest` first");
+  const DrapeAnswers answers(evaluated.result.garment, evaluated.result.bodies, *stage_.modelled->model,
+                             *stage_.shape.state, stage_.shape.report);
+  if (measure != nullptr) {
+    const interpreter::MeasureResult r = interpreter::evaluate_measure(evaluated.result, act, answers);
+    return {r.diagnostics.empty() ? Outcome::done : Outcome::refused,
+            r.diagnostics.empty() ? fmt::format("{} = {}\n", r.measure.name, r.measure.text)
+                                  : shown(r.diagnostics, evaluated.sources, Severity::error)};
+  }
+  const interpreter::ExpectResult r = interpreter::evaluate_expect(evaluated.result, act, answers);
+  if (r.found.empty()) return {Outcome::refused, shown(r.diagnostics, evaluated.sources, Severity::error)};
+  return {r.passed ? Outcome::done : Outcome::unmet,
+          fmt::format("{} {}: found {}\n", r.passed ? "ok    " : "FAILED", r.text, r.found)};
+}
+
+Answer Session::drape_now(simulator::Settle settle) {
+  Answer answer;
+  Stage next = stage_;
+  next.entry = acts_entry_;
+  next.shape.settle = settle;
+  answer.outcome = drape(next, stage_.shape.draped || stage_.shape.carried, answer.text);
+  take(std::move(next));
+  return answer;
+}
+
+/// Drapes the stage from its shape: from the placed panels by way of coarser grids, else on from where it
+/// hangs.
+Outcome Session::drape(Stage& stage, bool from_present, std::string& text) {
+  const double begun = host_.seconds();
+  const model::Model& model = *stage.modelled->model;
+  const interpreter::Interpretation& result = stage.evaluated->result;
+  simulator::DrapeSettings settings;
+  settings.settle = stage.shape.settle;
+  if (options_.max_steps > 0) settings.max_steps = options_.max_steps;
+  settings.progress = options_.progress;
+  settings.interrupted = options_.interrupted;
+  auto state = std::make_shared<model::State>(*stage.shape.state);
+  std::vector<model::Model> coarse;
+  if (!from_present || simulator::far_from_rest(model, state->position))
+    coarse = coarse_models(result.garment, result.bodies, model, !from_present);
+  stage.shape.report = from_present ? simulator::drape_again(coarse, model, result.bodies, *state, settings)
+                                    : simulator::drape_levels(coarse, model, result.bodies, *state, settings);
+  stage.shape.draped = true;
+  stage.shape.carried = false;
+  text += shown(interpreter::to_diagnostics(stage.shape.report.findings, result.origins),
+                stage.evaluated->sources, Severity::warning);
+  text += summary(model, *state, stage.shape.report) + seconds_since(begun) + '\n';
+  stage.shape.state = std::move(state);
+  if (stage.shape.report.status == simulator::DrapeStatus::interrupted)
+    text += "stopped; the shape is kept, `drape until rest` goes on from it\n";
+  return outcome_of(stage.shape.report.status);
+}
+
+/// The shape of `before` on the model of `stage`, draped on where that is wanted.
+Outcome Session::carry_on(const Stage& before, Stage& stage, std::string& text) {
+  const model::Model& model = *stage.modelled->model;
+  const bool hangs = before.shape.draped || before.shape.carried;
+  if (!hangs) {
+    stage.shape.state = start_state(model);
+    return Outcome::done;
+  }
+  modeller::Transferred carried =
+      modeller::transfer({before.evaluated->result.garment, *before.modelled->model},
+                         before.shape.state->position, {stage.evaluated->result.garment, model});
+  auto state = std::make_shared<model::State>();
+  state->position = std::move(carried.position);
+  state->velocity.assign(model.n_particles(), Eigen::Vector3d::Zero());
+  stage.shape = {std::move(state), {}, before.shape.settle, false, true};
+  if (automatic_) return drape(stage, true, text);
+  text += "the shape was carried over; `drape until rest` brings it to rest\n";
+  return Outcome::done;
+}
+
+Answer Session::save_files(const interpreter::SaveAct& act) {
+  Answer answer;
+  const interpreter::Interpretation& result = stage_.evaluated->result;
+  for (const std::string& name : act.paths) {
+    const ResultFile file =
+        make_result_file(name, result.garment, result.bodies, *stage_.modelled->model, *stage_.shape.state);
+    if (!file.bytes) return {Outcome::failed, answer.text + fault("G0905", file.message, file.help)};
+    const std::string path = (std::filesystem::path(out_folder()) / name).string();
+    if (const HostResult<bool> written = host_.write_file(path, *file.bytes); !written)
+      return {Outcome::failed,
+              answer.text +
+                  fault("G0902", fmt::format("cannot write `{}`: {}", path, written.error.message), "")};
+    answer.text += fmt::format("wrote {}\n", path);
+  }
+  return answer;
+}
+
+}  // namespace garment::session
