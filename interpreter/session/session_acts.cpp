@@ -172,7 +172,9 @@ Answer Session::save_files(const interpreter::SaveAct& act) {
         make_result_file(name, result.garment, result.bodies, *stage_.modelled->model, *stage_.shape.state);
     if (!file.bytes) return {Outcome::failed, answer.text + fault("G0905", file.message, file.help)};
     const std::string path = (std::filesystem::path(out_folder()) / name).string();
-    if (const HostResult<bool> written = host_.write_file(path, *file.bytes); !written)
+    std::vector<std::string> granted = options_.allow_write;
+    granted.push_back(out_folder());
+    if (const HostResult<bool> written = host_.write_below(granted, path, *file.bytes); !written)
       return {Outcome::failed,
               answer.text +
                   fault("G0902", fmt::format("cannot write `{}`: {}", path, written.error.message), "")};
