@@ -2,6 +2,7 @@
 // units: `name, W [g/m^2], T [mm], EM_warp [%], B [gf*cm^2/cm]`.
 #include <algorithm>
 
+#include "interpreter/language/collections.hpp"
 #include "interpreter/language/evaluate.hpp"
 #include "interpreter/language/fabric_fields.hpp"
 #include "interpreter/language/fabrics.hpp"
@@ -148,7 +149,7 @@ class Table {
       return unknown.push_back(column.name);
     const bool text = column.name == "kind" || column.name == "source" || column.name == "color" ||
                       column.name == "pattern";
-    if (text) return take_field(program_, fabric, given, column.name, file_place_, Value{cell}, file_place_);
+    if (text) return take_field(program_, fabric, given, column.name, file_place_, own_text(cell), file_place_);
     const auto number = parse_number(cell);
     if (!number)
       fail_table("`" + cell + "` in column `" + column.name + "` of `" + path_ + "` is no number", row_place_,
