@@ -120,7 +120,7 @@ std::string describe_value(const Interpretation& interpretation, const Value& va
   const Program& program = *interpretation.program;
   if (const auto* q = value.as<Quantity>())
     return format_quantity(q->value, q->dimension, q->percent, kDigits);
-  if (const auto* text = value.as<std::string>()) return '"' + show(Value{*text}) + '"';
+  if (value.as<std::string>() != nullptr) return '"' + show(value) + '"';
   if (value.as<EdgeValue>() != nullptr) return describe_edge(program, value, drape);
   if (const auto* panel = value.as<PanelValue>()) return describe_panel(program, panel->panel);
   if (const auto* half = value.as<HalfValue>())

@@ -108,7 +108,7 @@ void run_record(Program& program, const Item& item) {
   const BoundClause& as = clauses.need("as");
   act.path = eval_text(program, clauses.value(as), *as.scope, "`as`");
   clauses.finish();
-  checked_path(program, act.path, clauses.value(as).span);
+  writable_path(program, act.path, clauses.value(as).span);
   if (act.path.size() < 5 || act.path.compare(act.path.size() - 4, 4, ".csv") != 0)
     fail(program,
          Message("G1321", "a curve is written as a table, `" + act.path + "` is none", clauses.value(as).span)
