@@ -354,7 +354,7 @@ void settle_declarations(Program& program, Module& module) {
   for (const Item& item : module.items) {
     if (item.declaration == nullptr) continue;
     const ConstructRecord* record = find_construct(item.statement->keyword.text);
-    if (record != nullptr && record->reserve != nullptr)
+    if (record != nullptr && record->reserve != nullptr && item.declaration->index < 0)
       item.declaration->index = record->reserve(program, *item.declaration);
   }
   for (const Item& item : module.items) {

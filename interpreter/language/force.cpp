@@ -32,6 +32,8 @@ Span name_span(const Declaration& declaration) {
   if (declaration.evaluate != nullptr) return declaration.evaluate(program, declaration);
   const ConstructRecord* record = find_construct(declaration.statement->keyword.text);
   if (record == nullptr || record->evaluate == nullptr) fail_no_value(program, declaration);
+  // The condition of an `if` may ask before all declarations have their places.
+  if (record->reserve != nullptr && declaration.index < 0) declaration.index = record->reserve(program, declaration);
   return record->evaluate(program, declaration);
 }
 
