@@ -18,11 +18,27 @@ constexpr std::size_t kMaxCompletions = 500;
 
 Json markdown(const std::string& text) { return Json{{"kind", "markdown"}, {"value", text}}; }
 
-/// A span as the protocol's Location, in whichever file it lies.
-Json location(const Analysis& analysis, Span span, Encoding encoding) {
-  const grammar::Source& source = analysis.sources[span.source];
-  return Json{{"uri", uri_of(source.name)}, {"range", Lines(source.text, encoding).range(span)}};
-}
+/// Places in the files of one analysis, as the protocol has them.
+class Places {
+ public:
+  Places(const Analysis& analysis, Encoding encoding) : analysis_(analysis), encoding_(encoding) {}
+
+  Json range(Span span) { return lines(span.source).range(span); }
+  Json location(Span span) {
+    return Json{{"uri", uri_of(analysis_.sources[span.source].name)}, {"range", range(span)}};
+  }
+
+ private:
+  const Lines& lines(grammar::SourceId source) {
+    const auto known = lines_.find(source);
+    if (known != lines_.end()) return known->second;
+    return lines_.emplace(source, Lines(analysis_.sources[source].text, encoding_)).first->second;
+  }
+
+  const Analysis& analysis_;
+  Encoding encoding_;
+  std::map<grammar::SourceId, Lines> lines_;
+};
 
 int completion_kind(const std::string& kind) {
   static const std::map<std::string, int, std::less<>> kinds = {
@@ -37,10 +53,10 @@ int completion_kind(const std::string& kind) {
 
 int symbol_kind(const std::string& keyword) {
   static const std::map<std::string, int, std::less<>> kinds = {
-      {"panel", 5},   {"pair", 5},   {"component", 5}, {"outline", 3}, {"edge", 8},     {"close", 8},
-      {"dart", 8},    {"notch", 20}, {"param", 14},    {"let", 13},    {"measure", 13}, {"fn", 12},
-      {"seam", 11},   {"zip", 11},   {"body", 19},     {"fabric", 23}, {"region", 22},  {"layer", 23},
-      {"button", 24}, {"pin", 20},   {"hole", 8}};
+      {"panel", 5},   {"pair panel", 5}, {"component", 5}, {"outline", 3}, {"edge", 8},     {"close", 8},
+      {"dart", 8},    {"notch", 20},     {"param", 14},    {"let", 13},    {"measure", 13}, {"fn", 12},
+      {"seam", 11},   {"zip", 11},       {"body", 19},     {"fabric", 23}, {"region", 22},  {"layer", 23},
+      {"button", 24}, {"pin", 20},       {"hole", 8}};
   const auto found = kinds.find(keyword);
   return found == kinds.end() ? 13 : found->second;
 }
@@ -88,7 +104,7 @@ std::optional<Json> library_place(const Question& q, const service::Named& thing
     const auto value = values.find(thing.name);
     if (value == values.end() || value->second.as<interpreter::ModuleValue>() == nullptr) continue;
     if (value->second.as<interpreter::ModuleValue>()->module == &module)
-      return location(q.now(), {module.script.source, 0, 0}, q.encoding);
+      return Places(q.now(), q.encoding).location({module.script.source, 0, 0});
   }
   return std::nullopt;
 }
@@ -137,20 +153,22 @@ Json answer_signature(const Question& q) {
 }
 
 Json answer_definition(const Question& q) {
+  Places at(q.now(), q.encoding);
   Json places = Json::array();
   for (const int id : things_at(q)) {
     const service::Named& thing = q.now().names.things[static_cast<std::size_t>(id)];
     const auto library = library_place(q, thing);
-    places.push_back(library ? *library : location(q.now(), thing.definition, q.encoding));
+    places.push_back(library ? *library : at.location(thing.definition));
   }
   return places;
 }
 
 Json answer_references(const Question& q) {
+  Places at(q.now(), q.encoding);
   const bool declaration = q.params.value("context", Json::object()).value("includeDeclaration", true);
   Json places = Json::array();
   for (const service::NameUse* use : uses_at(q))
-    if (declaration || !use->declares) places.push_back(location(q.now(), use->span, q.encoding));
+    if (declaration || !use->declares) places.push_back(at.location(use->span));
   return places;
 }
 
@@ -164,12 +182,13 @@ Json answer_highlight(const Question& q) {
 }
 
 Json answer_partners(const Question& q) {
+  Places at(q.now(), q.encoding);
   Json places = Json::array();
   const auto partners =
       service::partners_at(q.now().sources, q.now().source, q.offset(), q.now().result, q.now().names);
   for (const service::Partner& partner : partners)
     for (const Span& span : partner.definitions) {
-      Json place = location(q.now(), span, q.encoding);
+      Json place = at.location(span);
       if (std::find(places.begin(), places.end(), place) == places.end()) places.push_back(std::move(place));
     }
   return places;
@@ -258,7 +277,7 @@ const std::vector<std::string> kTokenKinds = {"keyword",  "property", "class",  
                                               "variable", "function", "namespace", "enumMember"};
 
 int token_kind(const std::string& keyword) {
-  if (keyword == "panel" || keyword == "component" || keyword == "pair" || keyword == "fabric" ||
+  if (keyword == "panel" || keyword == "component" || keyword == "pair panel" || keyword == "fabric" ||
       keyword == "body")
     return 2;
   if (keyword == "param" || keyword == "parameter") return 3;
@@ -324,12 +343,23 @@ Json answer_tokens(const Question& q) {
 
 namespace {
 
-Json diagnostic_json(const grammar::Diagnostic& d, const Analysis& analysis, Span primary,
-                     Encoding encoding) {
+const char* const kUnused = "G0439";
+
+/// A file of values, functions and the like alone is there for others to use: what it does not use itself is
+/// no news.
+bool is_library(const grammar::Script& script) {
+  return std::all_of(
+      script.statements.begin(), script.statements.end(), [](const grammar::Statement& statement) {
+        const interpreter::ConstructRecord* record = interpreter::find_construct(statement.keyword.text);
+        return statement.broken || (record != nullptr && record->in_library);
+      });
+}
+
+Json diagnostic_json(const grammar::Diagnostic& d, Places& places, Span primary) {
   std::string text = d.message;
   if (!d.labels.empty() && !d.labels[0].text.empty()) text += "\n" + d.labels[0].text;
   if (!d.help.empty()) text += "\nhelp: " + d.help;
-  Json json{{"range", Lines(analysis.sources[primary.source].text, encoding).range(primary)},
+  Json json{{"range", places.range(primary)},
             {"severity", d.severity == Severity::error     ? 1
                          : d.severity == Severity::warning ? 2
                                                            : 3},
@@ -337,9 +367,10 @@ Json diagnostic_json(const grammar::Diagnostic& d, const Analysis& analysis, Spa
             {"codeDescription", {{"href", "garment:explain/" + d.code}}},
             {"source", "garment"},
             {"message", text}};
+  if (d.code == kUnused) json["tags"] = Json::array({1});  // an editor shows it faded
   Json related = Json::array();
   for (std::size_t k = 1; k < d.labels.size(); ++k)
-    related.push_back({{"location", location(analysis, d.labels[k].span, encoding)},
+    related.push_back({{"location", places.location(d.labels[k].span)},
                        {"message", d.labels[k].text.empty() ? "here" : d.labels[k].text}});
   if (!related.empty()) json["relatedInformation"] = related;
   return json;
@@ -352,8 +383,11 @@ std::map<std::string, Json> diagnostics_of(const Document& document, Encoding en
   by_file[document.uri] = Json::array();
   if (document.now == nullptr) return by_file;
   const Analysis& analysis = *document.now;
+  Places places(analysis, encoding);
+  const bool library = is_library(*analysis.result.script);
   for (const grammar::Diagnostics* some : {&analysis.result.diagnostics, &analysis.model})
     for (const grammar::Diagnostic& d : *some) {
+      if (library && d.code == kUnused) continue;
       const Span primary = d.labels.empty() ? Span{analysis.source, 0, 0} : d.labels[0].span;
       const bool own = primary.source == analysis.source;
       const std::string& name = analysis.sources[primary.source].name;
@@ -361,7 +395,7 @@ std::map<std::string, Json> diagnostics_of(const Document& document, Encoding en
       const bool file = own || (!name.empty() && name[0] == '/');
       const std::string uri = own || !file ? document.uri : uri_of(name);
       Json& list = by_file.try_emplace(uri, Json::array()).first->second;
-      list.push_back(diagnostic_json(d, analysis, file ? primary : Span{analysis.source, 0, 0}, encoding));
+      list.push_back(diagnostic_json(d, places, file ? primary : Span{analysis.source, 0, 0}));
     }
   return by_file;
 }

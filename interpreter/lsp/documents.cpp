@@ -1,6 +1,7 @@
 #include "interpreter/lsp/documents.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "interpreter/language/program.hpp"
 #include "runtime/base/number.hpp"
@@ -14,11 +15,23 @@ constexpr std::size_t kMaxText =
     16u << 20;  // what is longer than 4 MiB is not read, but an editor may hold it
 constexpr std::size_t kMaxDocuments = 256;
 constexpr std::size_t kMaxBodies = 16;
+constexpr double kMaxParticles = 50'000;  // of a garment whose model is built while it is being written
 
 int hex(char c) {
   if (c >= '0' && c <= '9') return c - '0';
   if (c >= 'a' && c <= 'f') return c - 'a' + 10;
   return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
+}
+
+/// About how many particles a garment has.
+double particles_of(const design::Garment& garment) {
+  double n = 0;
+  for (const design::Panel& panel : garment.panels) {
+    double area = 0;
+    for (const design::Edge& edge : panel.edges) area += edge.curve.area_term();
+    n += std::abs(area) / (panel.resolution * panel.resolution);
+  }
+  return n;
 }
 
 std::string folder_of(const std::string& path) {
@@ -123,12 +136,16 @@ Document* Documents::find(const std::string& uri) {
   return found == documents_.end() ? nullptr : &found->second;
 }
 
-/// Texts that use this file mean something else now.
+/// Texts that use this file, or could not find a file, may mean something else now.
 void Documents::forget_users_of(const std::string& uri) {
   const std::string path = path_of(uri);
-  for (auto& [other, document] : documents_)
-    if (other != uri && document.now != nullptr && document.now->result.program->loaded.contains(path))
-      document.changed = true;
+  for (auto& [other, document] : documents_) {
+    if (other == uri || document.now == nullptr) continue;
+    const interpreter::Interpretation& result = document.now->result;
+    const bool misses = std::any_of(result.diagnostics.begin(), result.diagnostics.end(),
+                                    [](const grammar::Diagnostic& d) { return d.code == "G0318"; });
+    if (misses || result.program->loaded.contains(path)) document.changed = true;
+  }
 }
 
 interpreter::InterpretOptions Documents::options_of(const std::string& uri) const {
@@ -136,6 +153,8 @@ interpreter::InterpretOptions Documents::options_of(const std::string& uri) cons
   options.stdlib_dir = stdlib_dir_;
   options.script_dir = folder_of(path_of(uri));
   auto* self = const_cast<Documents*>(this);
+  options.build_bodies = false;
+  options.warn_unused = true;
   options.build_body = [self](const design::Body& declared, Host&, const std::string& folder) {
     return self->cached_body(declared, folder);
   };
@@ -173,8 +192,18 @@ void Documents::check_model(Document& document) {
   Analysis& analysis = *document.now;
   const interpreter::Interpretation& result = analysis.result;
   Findings findings = modeller::find_unmodelled(result.garment, Severity::warning);
-  if (findings.empty() && !result.garment.panels.empty())
-    findings = modeller::build_model(result.garment, result.bodies).findings;
+  if (findings.empty() && !result.garment.panels.empty() && particles_of(result.garment) < kMaxParticles) {
+    std::vector<body::Body> bodies;
+    for (const design::Body& declared : result.garment.bodies) {
+      body::BodyResult built = cached_body(declared, options_of(document.uri).script_dir);
+      findings.insert(findings.end(), built.findings.begin(), built.findings.end());
+      if (built.body) bodies.push_back(std::move(*built.body));
+    }
+    if (bodies.size() == result.garment.bodies.size()) {
+      const Findings more = modeller::build_model(result.garment, bodies).findings;
+      findings.insert(findings.end(), more.begin(), more.end());
+    }
+  }
   analysis.model = interpreter::to_diagnostics(findings, result.origins);
 }
 

@@ -21,7 +21,7 @@ bool is_any(std::string_view word, std::initializer_list<std::string_view> words
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-bool is_panel_block(const std::string& keyword) { return is_any(keyword, {"panel", "pair", "pair panel"}); }
+bool is_panel_block(const std::string& keyword) { return is_any(keyword, {"panel", "pair panel"}); }
 
 class Proposer {
  public:
@@ -93,7 +93,16 @@ class Proposer {
 
   // ---- after the keyword
 
+  /// The second word of `pair panel`.
+  void propose_second_word() {
+    for (const ConstructRecord& record : construct_table())
+      if (record.keyword.starts_with(context_.target + ' '))
+        add(std::string(record.keyword.substr(context_.target.size() + 1)), "keyword", std::string(record.form),
+            construct_doc(record));
+  }
+
   void propose_in_statement() {
+    if (!context_.target.empty()) propose_second_word();
     const bool operands_next = context_.clause.empty();
     const bool wants_value = context_.after_operator || context_.values == 0;
     if (!operands_next && wants_value && propose_words()) return;
@@ -206,8 +215,9 @@ class Proposer {
     if (like == std::string::npos || depth > 16) return;
     const std::string source(
         symbol.detail.substr(like + 5, symbol.detail.find_first_of(" {", like + 5) - like - 5));
-    for (const Symbol& other : symbols_)
-      if (other.name == source) written_items(other, items, depth + 1);
+    const auto other =
+        std::find_if(symbols_.begin(), symbols_.end(), [&](const Symbol& s) { return s.name == source; });
+    if (other != symbols_.end()) written_items(*other, items, depth + 1);
   }
 
   void propose_values(const std::string& takes) {
@@ -230,13 +240,13 @@ class Proposer {
   bool propose_things(const std::string& takes) {
     static const std::pair<std::string_view, std::vector<std::string_view>> kinds[] = {
         {"FABRIC", {"fabric"}},
-        {"PANEL", {"panel", "pair"}},
+        {"PANEL", {"panel", "pair panel"}},
         {"BODY", {"body"}},
         {"LEVEL", {"body"}},
-        {"EDGE", {"panel", "pair", "part"}},
-        {"SIDE", {"panel", "pair", "part"}},
+        {"EDGE", {"panel", "pair panel", "part"}},
+        {"SIDE", {"panel", "pair panel", "part"}},
         {"REGION", {"region"}},
-        {"LINE", {"panel", "pair"}},
+        {"LINE", {"panel", "pair panel"}},
         {"SEAM", {"seam"}},
         {"ZIP", {"zip"}},
         {"PATH", {"path"}},
@@ -331,7 +341,7 @@ class Proposer {
     for (const Symbol& symbol : symbols_)
       if (symbol.name == context_.base) {
         std::vector<Member> items;
-        if (symbol.keyword == "panel" || symbol.keyword == "component") written_items(symbol, items, 0);
+        if (is_panel_block(symbol.keyword) || symbol.keyword == "component") written_items(symbol, items, 0);
         for (const Member& item : items) add(item);
         if (assigns) propose_properties(symbol.keyword);
       }

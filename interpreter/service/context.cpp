@@ -40,7 +40,7 @@ class Reader {
   struct Frame {
     OpenBlock block;
     std::string loop_variable;  ///< of the `for` whose block this is
-    bool open_statement = false, both = false, wants_name = false;
+    bool open_statement = false, both = false, wants_name = false, second_word = false;
     int indent = 0;
     std::string keyword, name, target, clause;
     std::vector<std::string> clauses;
@@ -178,6 +178,11 @@ class Reader {
   void take_plain(std::size_t k, std::string_view text) {
     Frame& f = frame();
     if (f.keyword.empty() && f.target.empty()) return take_first(k, text);
+    if (f.second_word) {
+      f.second_word = false;
+      f.wants_name = f.record->declares_name;
+      return;
+    }
     if (f.wants_name && tokens_[k].kind == TokenKind::word) {
       f.wants_name = false;
       f.name = std::string(text);
@@ -210,6 +215,14 @@ class Reader {
   void take_first(std::size_t k, std::string_view text) {
     Frame& f = frame();
     if (tokens_[k].kind != TokenKind::word) return;
+    if (k + 1 < tokens_.size())  // `pair panel`
+      if (const std::string two = std::string(text) + ' ' + std::string(word(k + 1));
+          find_construct(two) != nullptr) {
+        f.keyword = two;
+        f.record = find_construct(two);
+        f.second_word = true;
+        return;
+      }
     if (text == "both") {
       f.both = true;
       return;

@@ -35,6 +35,7 @@ const std::vector<LibraryName>& library_names() {
   static const std::vector<LibraryName> names = {
       {"fabrics", "measured cloth: `fabrics.denim`"},
       {"bodies", "persons by size: `bodies.woman(size: 40)`"},
+      {"blocks", "skirt, tee and other blocks as components: `part front = blocks.skirt(...)`"},
   };
   return names;
 }

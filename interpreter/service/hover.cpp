@@ -54,13 +54,19 @@ Value edge_value(int panel, const PanelInfo& info, const NamedEdge& edge) {
   return Value{EdgeValue{{span}}};
 }
 
+/// "upper" as written in a component is "left_sleeve.upper" in the garment.
+bool is_panel_named(const std::string& name, const std::string& written) {
+  if (name == written + ".left" || name == written + ".right") return true;  // of a pair
+  return name == written || name.ends_with('.' + written);
+}
+
 /// The edges of its panel that a thing means: the halves of a fold. Panels that are `like` it have edges of
 /// their own.
 std::vector<EdgeValue> edges_of(const Program& program, const Named& thing) {
   std::vector<EdgeValue> found;
   for (std::size_t k = 0; k < program.panels.size(); ++k)
     for (const NamedEdge& edge : program.panels[k].edges)
-      if (program.panels[k].panel.name == thing.owner && edge.name == thing.name)
+      if (is_panel_named(program.panels[k].panel.name, thing.owner) && edge.name == thing.name)
         found.push_back(*edge_value(static_cast<int>(k), program.panels[k], edge).as<EdgeValue>());
   return found;
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <set>
 
-#include "interpreter/language/bodies.hpp"
 #include "interpreter/language/edges.hpp"
 #include "interpreter/language/evaluate.hpp"
 #include "interpreter/language/fabrics.hpp"
@@ -90,24 +89,62 @@ std::vector<Member> edge_members(const Program& program, const EdgeValue& edge) 
   return out;
 }
 
+/// What a script may ask of a body, without its surface where it is a mannequin.
+body::Frame frame_of(Program& program, int index) {
+  const std::size_t k = static_cast<std::size_t>(index);
+  if (const auto known = program.frames.find(index); known != program.frames.end()) return known->second;
+  if (body::FrameResult made = body::make_frame(program.garment.bodies[k]); made.frame) return *made.frame;
+  body::Frame frame;
+  if (program.built[k] == nullptr) return frame;
+  for (const auto& [name, level] : program.built[k]->levels) frame.levels[name] = {level.height, level.girth};
+  for (const auto& [name, part] : program.built[k]->parts) frame.parts.push_back(name);
+  return frame;
+}
+
+std::string level_detail(const body::FrameLevel& level) {
+  std::string text = level.height ? cm(*level.height) + " high" : "";
+  if (level.girth) text += (text.empty() ? "" : ", ") + cm(*level.girth) + " round";
+  return text;
+}
+
 std::vector<Member> body_members(Program& program, int index, const std::string& path) {
   std::vector<Member> out;
-  const body::Body* body = built_body(program, index, {});
-  if (body == nullptr) return out;
+  const body::Frame frame = frame_of(program, index);
   if (!path.empty()) {
-    if (const auto level = body->levels.find(path); level != body->levels.end()) {
-      add(out, "girth", "length", cm(level->second.girth), "round the body at this level");
-      add(out, "height", "length", cm(level->second.height), "above the floor");
+    if (const auto level = frame.levels.find(path); level != frame.levels.end()) {
+      add(out, "girth", "length", level->second.girth ? cm(*level->second.girth) : "",
+          "round the body at this level");
+      add(out, "height", "length", level->second.height ? cm(*level->second.height) : "", "above the floor");
     }
-    for (const auto& [name, part] : body->parts)
+    for (const std::string& name : frame.parts)
       if (name.rfind(path + '.', 0) == 0) add(out, name.substr(path.size() + 1), "part", "");
     return out;
   }
-  for (const auto& [name, level] : body->levels)
-    add(out, name, "level", cm(level.height) + " high, " + cm(level.girth) + " round");
-  if (body->parts.contains("torso"))
+  for (const auto& [name, level] : frame.levels) add(out, name, "level", level_detail(level));
+  if (std::find(frame.parts.begin(), frame.parts.end(), "torso") != frame.parts.end())
     for (const char* side : {"front", "back", "left", "right"}) add(out, side, "part", "side of the torso");
-  for (const auto& [name, part] : body->parts) add(out, name.substr(0, name.find('.')), "part", "");
+  for (const std::string& name : frame.parts) add(out, name.substr(0, name.find('.')), "part", "");
+  for (const auto& [name, length] : frame.lengths) add(out, name, "length", cm(length));
+  return out;
+}
+
+/// What is declared in a part's component, its ports first.
+std::vector<Member> part_members(Program& program, const ThingValue& part) {
+  std::vector<Member> out;
+  if (part.keyword != "part" || part.index < 0 ||
+      static_cast<std::size_t>(part.index) >= program.parts.size())
+    return out;
+  const Scope* scope = program.parts[static_cast<std::size_t>(part.index)].scope;
+  if (scope == nullptr) return out;
+  for (const bool ports : {true, false})
+    for (const auto& [name, declaration] : scope->declared) {
+      if (declaration->statement == nullptr) continue;
+      const std::string& keyword = declaration->statement->keyword.text;
+      if ((keyword == "port") != ports) continue;
+      const bool done = declaration->state == Declaration::State::done;
+      add(out, name.substr(name.rfind('.') + 1), keyword,
+          done ? describe_value(program, declaration->value) : keyword, declaration->statement->doc);
+    }
   return out;
 }
 
@@ -137,6 +174,7 @@ std::vector<Member> members_of(Program& program, const Value& value) {
   if (const auto* v = value.as<PanelValue>()) return panel_members(program, v->panel, "", false);
   if (const auto* v = value.as<HalfValue>()) return panel_members(program, v->panel, v->half, false);
   if (const auto* v = value.as<EdgeValue>()) return edge_members(program, *v);
+  if (const auto* v = value.as<ThingValue>()) return part_members(program, *v);
   if (const auto* v = value.as<BodyValue>()) return body_members(program, v->body, "");
   if (const auto* v = value.as<BodyPlaceValue>()) return body_members(program, v->body, v->path);
   if (value.as<DartValue>() != nullptr)

@@ -1,7 +1,6 @@
 #include "interpreter/service/names.hpp"
 
 #include <algorithm>
-#include <list>
 #include <map>
 #include <set>
 #include <tuple>
@@ -23,7 +22,7 @@ bool is_any(std::string_view word, std::initializer_list<std::string_view> words
 }
 
 bool is_control(const Statement& statement) { return is_any(statement.keyword.text, {"if", "for", "both"}); }
-bool is_panel(std::string_view keyword) { return is_any(keyword, {"panel", "pair", "pair panel"}); }
+bool is_panel(std::string_view keyword) { return is_any(keyword, {"panel", "pair panel"}); }
 
 template <class F>
 void for_each_statement(const grammar::Block& block, const F& run) {
@@ -40,6 +39,7 @@ void for_each_statement(const grammar::Block& block, const F& run) {
 /// Names of one file or component: what its statements declare.
 struct Home {
   const Module* module = nullptr;
+  const Home* outer = nullptr;  ///< of a component: the file that it is written in
   Table names;
 };
 
@@ -48,6 +48,8 @@ class Builder {
   Builder(Program& program, Names& names) : program_(program), names_(names) {}
 
   void build() {
+    for (const Declaration& declaration : program_.declarations)
+      if (declaration.statement != nullptr) declarations_.emplace(declaration.statement, &declaration);
     for (const Module& module : program_.modules) declare_module(module);
     for (const Module& module : program_.modules) {
       Home& home = homes_[&module];
@@ -115,7 +117,17 @@ class Builder {
       home.names.emplace(name, id);
       statements_[id] = &statement;
       homes_of_things_[id] = &home;
+      if (statement.keyword.text == "component" && statement.body) declare_component(statement, id, home);
     });
+  }
+
+  void declare_component(const Statement& statement, int id, Home& home) {
+    if (component_homes_.contains(id)) return;
+    Home& inside = component_homes_[id];
+    inside.module = home.module;
+    inside.outer = &home;
+    inside.names = parameters(statement);
+    declare_block(*statement.body, inside, names_.things[static_cast<std::size_t>(id)].name);
   }
 
   void declare_use(const Statement& statement, Home& home) {
@@ -160,8 +172,8 @@ class Builder {
   }
 
   int source_panel(int panel, const Expr& expr) {
-    const std::vector<Table> none;
-    return find_name(expr, *homes_of_things_[panel], none);
+    const bool half = expr.kind == ExprKind::member && is_any(expr.text, {"left", "right"});
+    return find_name(half ? expr.children[0] : expr, *homes_of_things_[panel], {});
   }
 
   void take_members(const grammar::Block& body, int panel, Table& table) {
@@ -243,7 +255,8 @@ class Builder {
         expr.children.empty() ? expr.text : std::string(program_.sources.text(expr.span));
     for (auto at = locals.rbegin(); at != locals.rend(); ++at)
       if (const int id = find_in(*at, name); id >= 0) return id;
-    if (const int id = find_in(home.names, name); id >= 0) return id;
+    for (const Home* at = &home; at != nullptr; at = at->outer)
+      if (const int id = find_in(at->names, name); id >= 0) return id;
     return find_made(name, home);
   }
 
@@ -254,8 +267,8 @@ class Builder {
     if (thing.part_of >= 0) return thing.part_of;
     // `let p = front`: by its value.
     if (const auto statement = statements_.find(id); statement != statements_.end() && thing.keyword == "let")
-      for (const Declaration& declaration : program_.declarations)
-        if (declaration.statement == statement->second) return panel_of_value(declaration.value);
+      if (const auto known = declarations_.find(statement->second); known != declarations_.end())
+        return panel_of_value(known->second->value);
     return -1;
   }
 
@@ -269,13 +282,23 @@ class Builder {
     return find_made(program_.panels[static_cast<std::size_t>(index)].panel.name, homes_[program_.main]);
   }
 
+  /// Walks an operand or a clause's value: a bare name there is first of all one of the panel's own.
+  int walk_value(const Expr& expr, Home& home, std::vector<Table>& locals, int panel) {
+    direct_ = true;
+    return walk(expr, home, locals, panel);
+  }
+
   /// Walks an expression and notes its names; gives the panel that it speaks of, or -1.
   int walk(const Expr& expr, Home& home, std::vector<Table>& locals, int panel) {
+    const bool direct = direct_;
+    direct_ = false;
     switch (expr.kind) {
       case ExprKind::name: {
         for (const Expr& part : expr.children) walk(part, home, locals, panel);
-        int id = panel >= 0 && !is_local(expr.text, locals) ? find_in(members(panel), expr.text) : -1;
+        const bool own = panel >= 0 && !is_local(expr.text, locals);
+        int id = own && direct ? find_in(members(panel), expr.text) : -1;
         if (id < 0) id = find_name(expr, home, locals);
+        if (id < 0 && own) id = find_in(members(panel), expr.text);
         if (id < 0) id = find_mentioned(expr);
         use(expr.span, id);
         last_ = id;
@@ -289,7 +312,7 @@ class Builder {
       case ExprKind::index: {
         const int base = walk(expr.children[0], home, locals, panel);
         for (std::size_t k = 1; k < expr.children.size(); ++k)
-          walk(expr.children[k], home, locals, base >= 0 ? base : panel);
+          walk_value(expr.children[k], home, locals, base >= 0 ? base : panel);
         last_ = -1;
         return base;
       }
@@ -327,14 +350,40 @@ class Builder {
       use(expr.name_span, last_);
       return -1;
     }
-    if (base < 0) return -1;
     if (is_any(expr.text, {"left", "right"})) {
       last_ = thing;
       return base;
     }
+    if (const Home* inside = home_of_part(thing)) {
+      last_ = find_in(inside->names, expr.text);
+      use(expr.name_span, last_);
+      return keep_panel(last_);
+    }
+    if (base < 0) return -1;
     last_ = find_in(members(base), expr.text);
     use(expr.name_span, last_);
     return base;
+  }
+
+  /// The names of the component that a `part` uses; null for other things.
+  const Home* home_of_part(int thing) {
+    if (thing < 0 || names_.things[static_cast<std::size_t>(thing)].keyword != "part") return nullptr;
+    const auto statement = statements_.find(thing);
+    if (statement == statements_.end()) return nullptr;
+    const Clause* value = clause_of(*statement->second, "=");
+    if (value == nullptr || value->values.empty()) return nullptr;
+    const Expr& expr = value->values[0];
+    const int component =
+        find_called(expr.kind == ExprKind::call ? expr.children[0] : expr, *homes_of_things_[thing]);
+    const auto inside = component_homes_.find(component);
+    return inside == component_homes_.end() ? nullptr : &inside->second;
+  }
+
+  /// The thing that `sleeve` or `blocks.sleeve` names.
+  int find_called(const Expr& expr, Home& home) {
+    if (expr.kind != ExprKind::member) return find_name(expr, home, {});
+    const auto library = libraries_.find(find_name(expr.children[0], home, {}));
+    return library == libraries_.end() ? -1 : find_in(homes_[library->second].names, expr.text);
   }
 
   int walk_call(const Expr& expr, Home& home, std::vector<Table>& locals, int panel) {
@@ -345,6 +394,7 @@ class Builder {
     for (std::size_t k = 1; k < expr.children.size(); ++k) {
       if (k - 1 < expr.labels.size() && !expr.labels[k - 1].text.empty())
         use(expr.labels[k - 1].span, parameter_of(function, expr.labels[k - 1].text));
+      direct_ = marks;
       walk(expr.children[k], home, locals, marks ? base : panel);
     }
     last_ = -1;
@@ -397,7 +447,7 @@ class Builder {
       walk_defaults(statement, home, locals, panel);
     else
       for (const Expr& operand : statement.operands) {
-        const int found = walk(operand, home, locals, panel);
+        const int found = walk_value(operand, home, locals, panel);
         if (found >= 0 && keyword == "place") placed = found;
       }
     const int own = is_panel(keyword) ? thing_of(statement) : placed;
@@ -422,7 +472,7 @@ class Builder {
       for (const Expr& value : clause.values) {
         // The head of a panel speaks of its fabric and its source; its own edges come after `fold`.
         const bool head = is_panel(statement.keyword.text) && clause.word.text != "on";
-        walk(value, home, locals, head ? -1 : panel);
+        walk_value(value, home, locals, head ? -1 : panel);
       }
   }
 
@@ -430,23 +480,9 @@ class Builder {
     for (const auto* body : {&statement.body, &statement.else_body}) {
       if (!*body) continue;
       const std::string& keyword = statement.keyword.text;
-      if (keyword == "component") {
-        Home inside;
-        inside.module = home.module;
-        inside.names = home.names;
-        for (const auto& [name, id] : locals.back()) inside.names.insert_or_assign(name, id);
-        Home own;
-        own.module = home.module;
-        declare_block(
-            **body, own,
-            statement.operands.empty()
-                ? ""
-                : std::string(
-                      names_.things[static_cast<std::size_t>(std::max(0, thing_of(statement)))].name));
-        for (const auto& [name, id] : own.names) inside.names.insert_or_assign(name, id);
-        Home& kept = component_homes_.emplace_back(std::move(inside));
-        for (const auto& [name, id] : own.names) homes_of_things_[id] = &kept;
-        walk_block(**body, kept, locals, -1);
+      if (const auto inside = component_homes_.find(thing_of(statement));
+          keyword == "component" && inside != component_homes_.end()) {
+        walk_block(**body, inside->second, locals, -1);
         continue;
       }
       locals.push_back(local_names(**body, is_control(statement)));
@@ -477,13 +513,15 @@ class Builder {
   Program& program_;
   Names& names_;
   std::map<const Module*, Home> homes_;
-  std::list<Home> component_homes_;
+  std::map<int, Home> component_homes_;  ///< by component
   std::map<std::pair<grammar::SourceId, std::uint32_t>, int> by_place_;
   std::map<int, const Statement*> statements_;
+  std::map<const Statement*, const Declaration*> declarations_;  ///< looked up only
   std::map<int, Home*> homes_of_things_;
   std::map<int, const Module*> libraries_;
   std::map<int, Table> members_;
   std::set<int> mentioned_;  ///< panels that the statement spoke of so far
+  bool direct_ = false;      ///< the expression to walk next is a whole value
   int last_ = -1;            ///< the thing that the expression just walked names
 };
 

@@ -65,7 +65,6 @@ const Span* declared_span(const Statement& statement) {
   if (operands.empty()) return nullptr;
   if (keyword == "fn" || keyword == "component")
     return span_of_name(operands[0].kind == ExprKind::call ? operands[0].children[0] : operands[0]);
-  if (keyword == "pair" && operands.size() > 1) return span_of_name(operands[1]);
   return nullptr;
 }
 

@@ -193,8 +193,10 @@ Json construct_rule(const ConstructRecord& record) {
   if (std::find(clauses.begin(), clauses.end(), word) != clauses.end() || find_construct(word) == nullptr)
     word.clear();
   const bool called = record.keyword == "fn" || record.keyword == "component";
-  std::string begin =
-      kBegins + "(?:(both)[ \\t]+)?(" + escaped(record.keyword) + ")(?![A-Za-z_0-9.{(\\[])(?![ \\t]*=(?!=))";
+  std::string keyword = escaped(record.keyword);
+  if (const std::size_t blank = keyword.find(' '); blank != std::string::npos)
+    keyword.replace(blank, 1, "[ \\t]+");
+  std::string begin = kBegins + "(?:(both)[ \\t]+)?(" + keyword + ")(?![A-Za-z_0-9.{(\\[])(?![ \\t]*=(?!=))";
   if (!word.empty()) begin += "(?:[ \\t]+(" + word + ")(?![A-Za-z_0-9.]))?";
   const char* const group = word.empty() ? "3" : "4";
   if (record.declares_name || called || !word.empty()) begin += "(?:[ \\t]+(" + kWord + "))?";

@@ -37,6 +37,14 @@ TEST_CASE("clause words are those of the statement at hand") {
   CHECK(texts(completions("drape until rest settle |")) == "preview equilibrium exact");
 }
 
+TEST_CASE("a keyword of two words is one keyword") {
+  CHECK(texts(completions("pair pan|"), "keyword") == "panel");
+  CHECK(has(completions("pai|"), "pair panel"));
+  CHECK(completions("pair panel |").empty());
+  CHECK(has(completions(kScript + "pair panel cuff |"), "of"));
+  CHECK(has(completions("pair panel cuff of shell {\n  |"), "outline"));
+}
+
 TEST_CASE("names are those that the place takes") {
   CHECK(texts(completions(kScript + "panel p of |")) == "shell fabrics bodies");
   CHECK(texts(completions(kScript + "place |")) == "front back");
@@ -63,7 +71,7 @@ TEST_CASE("after a dot stands what the value has") {
   CHECK(has(completions(kScript + "body b = bodies.|"), "woman"));
   CHECK(has(completions(kScript + "fabric f = fabrics.de|"), "denim"));
   CHECK(has(completions(kScript + "let v = front.left.side[|"), "hip"));
-  CHECK(texts(completions(kScript + "front.waist_dart.|"), "clause") == "on at width depth to");
+  CHECK(texts(completions(kScript + "front.waist_dart.|"), "clause").rfind("on at width depth to", 0) == 0);
   CHECK(has(completions("panel back of shell like front {\n  waist_dart.de|"), "depth"));
   CHECK(texts(completions(kScript + "seam t: side.|")) == "left right");
 }

@@ -175,3 +175,79 @@ TEST_CASE("remedies that replace a word are edits") {
     }
   CHECK(found);
 }
+
+namespace {
+
+const std::string kParts = R"(use fabrics
+## a strip of cloth
+component strip(cloth: fabric, long: length = 30 cm) {
+  let high = 10 cm
+  panel upper of cloth {
+    outline from (0, 0) {
+      edge lower to (long, 0) free
+      edge end_side to (long, high) free
+      edge rim to (0, high)
+      close start_side free
+    }
+  }
+  port top = upper.rim
+}
+part one = strip(fabrics.denim, long: 40 cm)
+part two = strip(fabrics.linen, 40 cm)
+join one.top to two.top reversed
+one.upper.resolution = 2 cm
+)";
+
+struct Parts {
+  grammar::Sources sources;
+  grammar::SourceId source = 0;
+  interpreter::InterpretOptions options;
+  interpreter::Interpretation result;
+  service::Names all;
+  Parts() : source(sources.add("parts.garment", kParts)) {
+    options.stdlib_dir = GARMENT_STDLIB_DIR;
+    result = interpreter::interpret(sources, source, system_host(), options);
+    all = service::names_of(result);
+  }
+  std::string rename(const std::string& at, std::size_t into, const std::string& name) {
+    const auto offset = static_cast<std::uint32_t>(kParts.find(at) + into);
+    const auto r = service::rename_at(sources, source, offset, name, result, all, system_host(), options);
+    if (r.refused) UNSCOPED_INFO(r.refused->message);
+    CHECK_FALSE(r.refused);
+    return service::apply_edits(kParts, r.edits);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("names of components are renamed in their parts too") {
+  Parts parts;
+  for (const auto& d : parts.result.diagnostics) UNSCOPED_INFO(d.message);
+  CHECK(parts.result.ok());
+  CHECK(parts.rename("top = ", 1, "seamline") ==
+        replaced(kParts,
+                 {{"port top", "port seamline"}, {"one.top", "one.seamline"}, {"two.top", "two.seamline"}}));
+  CHECK(parts.rename("long: length", 1, "reach") == replaced(kParts, {{"long: length", "reach: length"},
+                                                                      {"(long, 0)", "(reach, 0)"},
+                                                                      {"(long, high)", "(reach, high)"},
+                                                                      {"long: 40", "reach: 40"}}));
+  CHECK(parts.rename("one.upper", 5, "face") ==
+        replaced(kParts,
+                 {{"panel upper", "panel face"}, {"upper.rim", "face.rim"}, {"one.upper", "one.face"}}));
+  CHECK(parts.rename("two.top", 1, "other") ==
+        replaced(kParts, {{"part two", "part other"}, {"two.top", "other.top"}}));
+  CHECK(parts.rename("strip(fabrics", 1, "band") ==
+        replaced(kParts, {{"component strip", "component band"},
+                          {"strip(fabrics.denim", "band(fabrics.denim"},
+                          {"strip(fabrics.linen", "band(fabrics.linen"}}));
+}
+
+TEST_CASE("a part offers its ports and its panels") {
+  Parts parts;
+  grammar::Sources sources;
+  const std::string text = kParts + "let x = one.";
+  const auto id = sources.add("asked.garment", text);
+  const auto found = service::complete(sources, id, static_cast<std::uint32_t>(text.size()), &parts.result);
+  CHECK(texts(found).rfind("top", 0) == 0);
+  CHECK(has(found, "upper"));
+}
