@@ -389,7 +389,8 @@ def test_random_edits():
 
 
 def test_latency():
-    """Time from a change to its diagnostics on the largest example: printed, and bounded loosely."""
+    """Time from a change to its diagnostics on the largest example: printed; the processor's time is bounded, since other
+    programs do not count in it."""
     examples = [os.path.join(ROOT, "examples", f) for f in os.listdir(os.path.join(ROOT, "examples")) if f.endswith(".garment")]
     path = max(examples, key=os.path.getsize)
     text = open(path, encoding="utf-8").read()
@@ -397,6 +398,7 @@ def test_latency():
     client.open(uri, text)
     client.wait_diagnostics(uri)
     times = []
+    before = client.processor_seconds()
     for version in range(2, 12):
         begin = time.perf_counter()
         client.change(uri, [{"text": text + "# %d\n" % version}], version)
@@ -404,8 +406,10 @@ def test_latency():
         times.append(time.perf_counter() - begin)
         time.sleep(0.05)
     median = sorted(times)[len(times) // 2]
-    print("didChange to diagnostics on %s: median %.0f ms, most %.0f ms" % (os.path.basename(path), 1e3 * median, 1e3 * max(times)))
-    check("latency", median < 2, median)
+    spent = (client.processor_seconds() - before) / len(times)
+    print("didChange to diagnostics on %s: median %.0f ms, most %.0f ms, of the processor %.0f ms" % (
+        os.path.basename(path), 1e3 * median, 1e3 * max(times), 1e3 * spent))
+    check("processor time of a change", spent < 0.1, spent)
     client.stop()
 
 
