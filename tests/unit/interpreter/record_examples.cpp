@@ -1,5 +1,6 @@
-// Each example of the construct and function tables runs: it is put into record_context.garment (which says
-// how) and gives no error. (That docs/reference.md is that of the tables is looked at in tests/cli.)
+// Each example of the construct and function tables and each block of the documents runs: it is put into
+// record_context.garment (which says how) and gives no error. (That docs/reference.md is that of the tables
+// is looked at in tests/cli.)
 #include <algorithm>
 #include <set>
 #include <utility>
@@ -121,4 +122,22 @@ TEST_CASE("every example of the function table has a value") {
     script += " answer = " + value + '\n';
     runs(script);
   }
+}
+
+TEST_CASE("every garment block of the documents runs") {
+  const std::string context = file("tests/unit/interpreter/record_context.garment");
+  const std::string fence = "```garment\n";
+  int blocks = 0;
+  for (const char* name : {"README.md", "docs/language.md"}) {
+    const std::string page = file(name);
+    for (std::size_t at = page.find(fence); at != std::string::npos; at = page.find(fence, at + 1)) {
+      const std::size_t begin = at + fence.size();
+      const std::string block = page.substr(begin, page.find("```\n", begin) - begin);
+      INFO(name << "\n" << block);
+      ++blocks;
+      // A block without a `garment` line is a part of a script: it stands in the context of the examples.
+      runs(block.rfind("garment 1", 0) == 0 ? block : with_example(context, block, context.size()));
+    }
+  }
+  CHECK(blocks >= 8);
 }
