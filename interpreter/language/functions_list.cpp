@@ -247,8 +247,8 @@ Value run_interpolate(Call& call) {
 std::vector<FunctionRecord> list_functions() {
   return {
       {"count", "count(LIST | TEXT)", "how many values a list has, or signs a text", "count([1, 2])", {"list"}, 1, run_count},
-      {"first", "first(LIST)", "its first value", "first([3 cm, 5 cm])", {"list"}, 1, run_first},
-      {"last", "last(LIST)", "its last value", "last([3 cm, 5 cm])", {"list"}, 1, run_last},
+      {"first_of", "first_of(LIST)", "its first value", "first_of([3 cm, 5 cm])", {"list"}, 1, run_first},
+      {"last_of", "last_of(LIST)", "its last value", "last_of([3 cm, 5 cm])", {"list"}, 1, run_last},
       {"sum", "sum(LIST)", "of numbers or points", "sum([3 cm, 5 cm])", {"list"}, 1, run_sum},
       {"sort",
        "sort(LIST [, FUNCTION])",

@@ -104,8 +104,8 @@ TEST_CASE("feet, crossings and pieces") {
   CHECK(number_of("intersection(" + circle + ", near: (-9 cm, 0)).x") == Approx(-0.04));
   CHECK(value_of("count(intersections(" + circle + "))") == "2");
   CHECK(value_of("count(intersections(circle((0, 0), 5 cm), line((-9 cm, 6 cm), (9 cm, 6 cm))))") == "0");
-  CHECK(value_of("length(first(split(line((0, 0), (12 cm, 0)), 1/3)))") == "4 cm");
-  CHECK(value_of("length(last(split(line((0, 0), (12 cm, 0)), (5 cm, 0))))") == "7 cm");
+  CHECK(value_of("length(first_of(split(line((0, 0), (12 cm, 0)), 1/3)))") == "4 cm");
+  CHECK(value_of("length(last_of(split(line((0, 0), (12 cm, 0)), (5 cm, 0))))") == "7 cm");
 }
 
 TEST_CASE("moving points and curves") {
@@ -114,7 +114,7 @@ TEST_CASE("moving points and curves") {
   CHECK(number_of("rotate((10 cm, 0), (0, 0), 90 deg).y") == Approx(0.1));
   CHECK(value_of("shift((1 cm, 0), (0, 2 cm))") == "(1 cm, 2 cm)");
   CHECK(value_of("shift(line((0, 0), (1 cm, 0)), (0, 2 cm)).end") == "(1 cm, 2 cm)");
-  CHECK(value_of("last(shift([(0, 0), (1 cm, 0)], (0, 2 cm)))") == "(1 cm, 2 cm)");
+  CHECK(value_of("last_of(shift([(0, 0), (1 cm, 0)], (0, 2 cm)))") == "(1 cm, 2 cm)");
   // A mirrored arc bulges to the other side.
   CHECK(number_of("mirror(arc((0, 0), (20 cm, 0), bulge: 2 cm), (0, 0), (1 cm, 0)).middle.y") == Approx(-0.02));
 }

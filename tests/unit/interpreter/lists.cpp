@@ -20,8 +20,8 @@ std::string value_of(const std::string& expr, const std::string& before = "") {
 TEST_CASE("lists are built, joined, sorted and mapped") {
   CHECK(value_of("[1, 2] + [3]") == "[1, 2, 3]");
   CHECK(value_of("count([] + [3 cm])") == "1");
-  CHECK(value_of("first([3 cm, 5 cm])") == "3 cm");
-  CHECK(value_of("last([3 cm, 5 cm])") == "5 cm");
+  CHECK(value_of("first_of([3 cm, 5 cm])") == "3 cm");
+  CHECK(value_of("last_of([3 cm, 5 cm])") == "5 cm");
   CHECK(value_of("sum([3 cm, 5 cm, 0])") == "8 cm");
   CHECK(value_of("sum([(1 cm, 0), (0, 2 cm)])") == "(1 cm, 2 cm)");
   CHECK(value_of("sort([5 cm, 3 cm, 4 cm])") == "[3 cm, 4 cm, 5 cm]");
@@ -61,7 +61,7 @@ TEST_CASE("tables are read between their rows and not beyond") {
   refuses("let t = [[36, 84 cm], [38, 88 cm]]\nlet x = interpolate(t, «40»)", "G0352", "from 36 to 38");
   refuses("let x = interpolate(«[[38, 84 cm], [36, 88 cm]]», 37)", "G0351", "38 is followed by 36");
   refuses("let x = interpolate([[36, 84 cm]], «3 cm»)", "G0305", "in a table over");
-  refuses("let x = first(«[]»)", "G0350", "empty");
+  refuses("let x = first_of(«[]»)", "G0350", "empty");
   refuses("let x = sort(«[1, \"a\"]»)", "G0306", "a number and text");
   refuses("let x = sum(«[true]»)", "G0306", "truth");
   refuses("let x = steps(0 .. 1, «0»)", "G0309", "over 0");
