@@ -59,7 +59,7 @@ std::vector<ConstructRecord> basics_constructs() {
        .declares_name = true,
        .form = "solve NAME in LOW .. HIGH so A == B",
        .doc = "names the value for which two numbers agree; with >= or <= the first from the low end that does",
-       .example = "solve radius in 5 cm .. 40 cm so 2 * pi * radius == length(front.waist)",
+       .example = "solve radius in 2 cm .. 40 cm so 2 * pi * radius == length(front.waist)",
        .clauses = {{"in", "LOW .. HIGH", "the range it is looked for in"},
                    {"so", "CONDITION", "a comparison of two numbers with ==, >= or <="}},
        .evaluate = evaluate_solve,

@@ -101,7 +101,7 @@ std::vector<ConstructRecord> panel_constructs() {
        .declares_name = true,
        .form = "hole NAME from POINT { edge ... close NAME } | hole NAME circle(CENTER, RADIUS) [free]",
        .doc = "a closed loop cut out of a panel; NAME is its whole rim",
-       .example = "hole neck circle((12 cm, 40 cm), 9 cm) free",
+       .example = "hole neck circle((12 cm, 40 cm), 5 cm) free",
        .clauses = {{"from", "POINT", "where the first edge starts"},
                    {"free", "", "its edges stay unsewn on purpose"}},
        .has_body = true,

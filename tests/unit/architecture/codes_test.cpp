@@ -39,7 +39,9 @@ std::set<std::string> codes_below(const std::vector<std::string>& folders) {
 }
 
 /// Findings of checks that no input reaches while the program is as it should be; each with its reason.
-const std::set<std::string> kUnreachable = {};
+const std::set<std::string> kUnreachable = {
+    "G1206",  // what a condition can read today can all be made again
+};
 
 }  // namespace
 

@@ -115,7 +115,14 @@ TEST_CASE("every code of the evaluator is raised by a test") {
     return codes;
   };
   const std::filesystem::path root = GARMENT_SOURCE_DIR;
-  const std::set<std::string> tested = codes_in(root / "tests/unit/interpreter", false);
+  std::set<std::string> tested = codes_in(root / "tests/unit/interpreter", false);
+  const std::regex expected("(?:error|warning)\\[(G0[3-6][0-9]{2})\\]");
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(root / "tests/golden")) {
+    if (entry.path().extension() != ".garment") continue;
+    const std::string text = read(entry.path());
+    for (auto at = std::sregex_iterator(text.begin(), text.end(), expected); at != std::sregex_iterator(); ++at)
+      tested.insert(at->str(1));
+  }
   std::set<std::string> untested;
   for (const auto& folder : {root / "interpreter/language", root / "runtime/design"})
     for (const std::string& code : codes_in(folder, true))

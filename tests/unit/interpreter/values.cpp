@@ -120,7 +120,7 @@ TEST_CASE("what an expression may not say") {
   refuses("let a = if «3» { 1 } else { 2 }\n", "G0306");
   refuses("let a = (1 cm, «2»)\n", "G0305", "2 cm");
   refuses("let a = (1 cm, 2 cm).«z»\n", "G0311");
-  refuses("let a = «length»\n", "G0306", "length(EDGE)");
+  refuses("let a = «length»\n", "G0306", "length(EDGE | CURVE | POINT)");
   refuses("let a = min(1, «2 cm»)\n", "G0305");
   refuses("let a = round(«3 cm»)\n", "G0308", "round(x, 1 cm)");
   refuses("fn f(x) = x\nlet a = f(1, «2»)\n", "G0307");
@@ -241,6 +241,8 @@ TEST_CASE("the table describes itself") {
     if (record.supported) CHECK_FALSE(record.example.empty());
     if (!record.supported) CHECK(help_text(record.keyword).find("not supported yet") != std::string::npos);
     for (std::string_view word : record.body_keywords) CHECK(find_construct(word) != nullptr);
+    // A line is one thing inside a panel and in a drawing; the pressure that a drape is asked for is the one that acts.
+    if (record.keyword == "line" || record.keyword == "pressure") continue;
     CHECK(find_function(record.keyword) == nullptr);
   }
   CHECK(did_you_mean("waits", {"waist", "hip"}) == "did you mean `waist`?");
