@@ -89,9 +89,11 @@ void fail_unknown_name(Program& program, const std::string& name, Span span, Sco
     throw Stop{};  // a broken line may have declared it
   Message message("G0301", "there is nothing named `" + name + "`", span);
   std::string hint;
-  if (const std::vector<std::string> names = visible_names(scope);
-      names.size() * (program.diagnostics.size() + 1) <= kMostComparisons)
-    hint = did_you_mean(name, names);
+  constexpr std::size_t kHints = 100;  // after so many mistakes no names are compared any more: it would take minutes
+  if (program.diagnostics.size() < kHints)
+    if (const std::vector<std::string> names = visible_names(scope);
+        names.size() * (program.diagnostics.size() + 1) <= kMostComparisons)
+      hint = did_you_mean(name, names);
   if (hint.empty() && find_unit(name)) hint = "`" + name + "` is a unit: write it after a number";
   if (hint.empty() && (name == "fabrics" || name == "bodies")) hint = "write `use " + name + "` at the top";
   fail(program, message.help(hint));
