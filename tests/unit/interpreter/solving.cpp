@@ -91,7 +91,7 @@ TEST_CASE("what cannot be solved is told with both differences") {
   refuses("solve n in 0 .. 9 so «n»", "G1201", "comparison");
   refuses("solve n in «0 .. 9» so n == 4 cm", "G1205", "a plain number and a length");
   refuses("let n = q\nsolve q in 0 .. «n» so q == 4", "G0304", "needs itself");
-  refuses("solve n in «-4 .. 9» so sqrt(n) == 2", "G1205", "cannot be tried");
+  refuses("solve n in -4 .. 9 so sqrt(«n») == 2", "G0309", "square root of -4");
   refuses("solve n in 0 .. 9 so «strain(all) == n»", "G0325", "drape");
 }
 
