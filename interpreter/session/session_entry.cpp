@@ -6,6 +6,7 @@
 #include "interpreter/language/construct_table.hpp"
 #include "interpreter/session/changes.hpp"
 #include "interpreter/session/session.hpp"
+#include "runtime/model/dump.hpp"
 
 namespace garment::session {
 namespace {
@@ -184,7 +185,10 @@ Outcome Session::settle_shape(Stage& next, double begun, std::string& text) {
     next.shape.state = start_state(model);
     return Outcome::done;
   }
-  if (same_model(*from.modelled->model, model)) {
+  // Where a garment that hangs would start does not matter to its shape.
+  const bool hangs = from.shape.draped || from.shape.carried;
+  if (hangs ? same_model(*from.modelled->model, model)
+            : model::model_hash(*from.modelled->model) == model::model_hash(model)) {
     next.shape = from.shape;
     text += fmt::format("model: as it was{}\n", seconds_since(begun));
     return Outcome::done;

@@ -9,11 +9,12 @@ if ! command -v tmux >/dev/null; then
   exit 0
 fi
 work=$(mktemp -d)
-socket="garment-$$"
+socket="garment-$$-0"
 trap 'tmux -L "$socket" kill-server 2>/dev/null; sleep 0.5; rm -rf "$work"' EXIT
 cp "$source/examples/skirt.garment" "$source/tests/cli/slow.garment" "$work"
 failures=0
 checks=0
+began=0
 
 screen() { tmux -L "$socket" capture-pane -p -J -S -500 -t garment 2>&1 | sed 's, *$,,'; }
 fail() {
@@ -53,6 +54,7 @@ clear_screen() {
 }
 begin() {
   tmux -L "$socket" kill-server 2>/dev/null
+  socket="garment-$$-$((++began))"  # the old server may still be on its way out
   tmux -L "$socket" -f /dev/null new-session -d -s garment -x 120 -y 50 -c "$work" \
     "env XDG_STATE_HOME='$work/state' '$program' repl $1; echo left with \$?; sleep 600"
 }

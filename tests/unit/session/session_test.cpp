@@ -86,6 +86,14 @@ TEST_CASE("an edit that means nothing to the model leaves the shape alone") {
   CHECK(has(prompt.enter(":where"), "at rest after"));
 }
 
+TEST_CASE("a panel that is placed elsewhere starts there") {
+  Prompt prompt;
+  const std::string start = prompt.session.state_hash();
+  prompt.enter("place cloth at (0, 2 m, 0)");
+  CHECK(prompt.session.state_hash() != start);
+  CHECK(prompt.session.stage().shape.state->position[0].y() > 1.5);
+}
+
 TEST_CASE("without `auto` the shape is carried over and waits") {
   Prompt prompt;
   prompt.enter("drape until rest settle preview");
