@@ -63,7 +63,12 @@ void ParseState::judge_nesting(const SyntaxError& error, std::size_t begin, std:
   }
   const bool misplaced = error.diagnostic.code == "G0209";
   const bool stray = statements_.empty() && indent_of(begin) > 0;
-  if (unbalanced || open != 0 || misplaced || stray || is_brace(at(error.position)) ||
+  // A } in the middle of a line closes more than its writer meant.
+  std::size_t before = error.position;
+  while (before > begin && is_blank(text_[before - 1])) --before;
+  const bool closed_early = error.diagnostic.code == "G0208" && before > begin && text_[before - 1] == '}' &&
+                            !first_on_line(before - 1);
+  if (unbalanced || open != 0 || misplaced || stray || closed_early || is_brace(at(error.position)) ||
       (block_expected && !any))
     lose_nesting(line_of(std::max<std::size_t>(error.position, begin)));
 }

@@ -39,8 +39,10 @@ bool near(const Diagnostic& a, const Diagnostic& b, const Sources& sources) {
 
 /// A statement that may not stand where it is read, in a file with a mistake in its syntax.
 bool misread(const Diagnostic& d, const Diagnostic& syntax) {
-  return d.code == "G0322" && !d.labels.empty() && !syntax.labels.empty() &&
-         d.labels[0].span.source == syntax.labels[0].span.source;
+  return d.code == "G0322" && !syntax.labels.empty() &&
+         std::any_of(d.labels.begin(), d.labels.end(), [&](const grammar::Label& label) {
+           return label.span.source == syntax.labels[0].span.source;
+         });
 }
 
 bool is_word_char(char c) {
