@@ -17,7 +17,7 @@ using model::Vector3d;
 constexpr double kRow = 2e-4;       // m
 constexpr double kLevel = 2e-3;     // m, a rim this level has no folds
 constexpr double kRipple = 0.1;     // of the rim's range
-constexpr double kDiscEdge = 5e-3;  // m below the disc's top that still belong to it
+constexpr double kDiscEdge = 6e-3;  // m below the disc's top that still belong to it: its edge is rounded by 5 mm
 
 /// Where the triangle (x, z) meets the line z = row; nothing where it does not.
 std::optional<std::pair<double, double>> span_at(const std::array<Vector3d, 3>& t, double row) {

@@ -82,8 +82,8 @@ TEST_CASE("the value of `it` is written, not the word") {
   prompt.enter("tall = it");
   CHECK(has(prompt.text(), "let tall = 12 cm\n"));
   prompt.enter("cloth.top");
-  prompt.enter("measure along = length(it)");
-  CHECK(has(prompt.text(), "measure along = length(cloth.top)\n"));
+  prompt.enter("measure width = length(it)");
+  CHECK(has(prompt.text(), "measure width = length(cloth.top)\n"));
 }
 
 TEST_CASE("a refused entry changes nothing and is shown as it was typed") {
