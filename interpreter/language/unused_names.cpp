@@ -71,14 +71,23 @@ class Words {
 void check_unused(Program& program) {
   Words words;
   words.take(program.main->script.statements);
-  for (const Declared& declared : words.declared()) {
-    if (words.used(declared.name)) continue;
+  constexpr std::size_t kTold = 10;  // more would bury what else is to be said
+  std::vector<const Declared*> unused;
+  for (const Declared& declared : words.declared())
+    if (!words.used(declared.name)) unused.push_back(&declared);
+  for (std::size_t k = 0; k < std::min(unused.size(), kTold); ++k) {
+    const Declared& declared = *unused[k];
     const bool drawn = declared.keyword == "line" || declared.keyword == "point";
     report(program, Message("G0439", "`" + declared.name + "` is declared and never used", declared.span)
                         .warning()
                         .help(drawn ? "it is drawn on the pattern and changes nothing else"
                                     : "use it, or leave it out; is the name of another meant?"));
   }
+  if (unused.size() > kTold)
+    report(program, Message("G0439", std::to_string(unused.size() - kTold) + " more names are declared and never used",
+                            unused[kTold]->span, "the first of them")
+                        .warning()
+                        .help("use them, or leave them out"));
 }
 
 }  // namespace garment::interpreter
