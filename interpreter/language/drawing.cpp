@@ -1,5 +1,7 @@
 #include "interpreter/language/drawing.hpp"
 
+#include <cmath>
+
 namespace garment::interpreter {
 namespace {
 
@@ -67,7 +69,8 @@ std::vector<std::string> drawn_edge_names(const design::Panel& panel) {
 }
 
 std::string format_point(const design::Point2& p) {
-  return "(" + format_quantity(p.x(), kLength) + ", " + format_quantity(p.y(), kLength) + ")";
+  auto shown = [](double x) { return format_quantity(std::fabs(x) < 1e-9 ? 0 : x, kLength); };
+  return "(" + shown(p.x()) + ", " + shown(p.y()) + ")";
 }
 
 }  // namespace garment::interpreter

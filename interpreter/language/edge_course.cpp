@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "interpreter/language/curve_values.hpp"
 #include "runtime/geometry/curve_map.hpp"
 
 namespace garment::interpreter {
@@ -24,7 +25,12 @@ geometry::Curve course_of(const Program& program, const EdgeSpan& span) {
 }  // namespace
 
 geometry::Curve eval_course(Program& program, const Expr& expr, Scope& scope, const std::string& what) {
-  const EdgeValue edge = eval_edges(program, expr, scope, what);
+  const Value value = eval(program, expr, scope);
+  if (value.as<CurveValue>() != nullptr) return curve_of(program, value, expr.span, what);
+  if (value.as<EdgeValue>() == nullptr)
+    fail(program, Message("G0306", kind_of(value) + " where " + what + " takes an edge or a curve", expr.span)
+                      .help("as in `along front.neck` or `along curve(from: P, to: Q, bulge: 1 cm)`"));
+  const EdgeValue edge = *value.as<EdgeValue>();
   std::vector<geometry::Curve> links;
   for (const EdgeSpan& span : edge.spans) {
     if (span.panel != edge.spans[0].panel)

@@ -2,13 +2,14 @@
 #include "interpreter/language/outline.hpp"
 #include "interpreter/language/panel_interior.hpp"
 #include "interpreter/language/segments.hpp"
+#include "runtime/geometry/curve_map.hpp"
 
 namespace garment::interpreter {
 namespace {
 
 using design::Point2;
 
-constexpr double kOnBorder = 1e-5;  // m; a line that begins on an edge begins this near it
+constexpr double kOnBorder = 1e-4;  // m; what lies on an edge lies this near to its segments
 constexpr double kSlitEnd = 1e-3;   // m; a slit ends this far inside at least
 
 class InteriorChecker {
@@ -94,7 +95,7 @@ class InteriorChecker {
   }
 
   void check_line(const design::Edge& line) {
-    const std::vector<Segment> segments = segments_of({line});
+    const std::vector<Segment> segments = segments_of({without_ends(line)});
     const Span span = span_of(line.name);
     if (const auto met = first_crossing(program_, span, segments, outline_))
       fail(program_, Message("G0421",
@@ -107,7 +108,7 @@ class InteriorChecker {
       fail(program_, Message("G0421", "line `" + line.name + "` runs into a hole at " + format_point(met->at), span)
                          .also(span_of(panel_.hole_edges[met->edge_b].name), "")
                          .help("let it end at the hole, or lead it round"));
-    for (const Segment& s : segments)
+    for (const Segment& s : segments_of({line}))
       for (const Point2& p : {s.a, s.b}) {
         if (in_cloth(p)) continue;
         if (contains(outline_, p, kOnBorder))
@@ -119,6 +120,14 @@ class InteriorChecker {
                                span)
                            .help("its points are coordinates of the panel, as those of the outline"));
       }
+  }
+
+  /// The line but for its ends, which may lie on a curved edge, and so beside the segments that stand for it.
+  static design::Edge without_ends(const design::Edge& line) {
+    design::Edge inner = line;
+    const double length = line.curve.length();
+    if (length > 10 * kOnBorder) inner.curve = geometry::piece_of(line.curve, 2 * kOnBorder, length - 2 * kOnBorder);
+    return inner;
   }
 
   bool in_cloth(const Point2& p) const {

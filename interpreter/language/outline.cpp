@@ -6,6 +6,7 @@
 #include "interpreter/language/edge_course.hpp"
 #include "runtime/base/portable_math.hpp"
 #include "runtime/geometry/curve_map.hpp"
+#include "runtime/geometry/offset.hpp"
 
 namespace garment::interpreter {
 namespace {
@@ -119,12 +120,12 @@ class EdgeDrawer {
   }
 
   Curve offset_course(const Curve& curve, double distance, const Expr& expr) {
-    double at = 0;
-    if (const auto found = geometry::beside(curve, distance, at)) return *found;
+    const geometry::OffsetResult found = geometry::offset_curve(curve, distance);
+    if (found.curve) return *found.curve;
     fail(program_, Message("G0441",
                            "there is no course " + format_quantity(distance, kLength) + " beside `" +
-                               std::string(program_.sources.text(expr.span)) + "`: " + format_quantity(at, kLength) +
-                               " along it, it bends more tightly than that",
+                               std::string(program_.sources.text(expr.span)) + "`: " + format_quantity(found.at, kLength) +
+                               " along it, it " + (found.tight ? "bends more tightly than that" : "has a corner too sharp"),
                            clauses_.find("offset")->clause->span)
                        .help("take a smaller offset, or copy the parts on either side one by one"));
   }

@@ -1,6 +1,5 @@
 #pragma once
 // Curves under maps of the plane.
-#include <optional>
 #include <vector>
 
 #include "runtime/geometry/curve.hpp"
@@ -15,16 +14,10 @@ Curve warped(const Curve& curve, const Point2& at_start, const Point2& at_end);
 /// radius.
 Curve stretched(const Curve& curve, double factor_x, double factor_y);
 
-/// The piece from arc length `from` to `to` (from < to). Of lines and arcs exact, of others a spline through points 4 mm
-/// apart at most, within 1e-6 m.
+/// The piece from arc length `from` to `to` (from < to); all of it is the curve itself.
 Curve piece_of(const Curve& curve, double from, double to);
 
-/// One curve along several that follow each other: a line where all lie on one, else a spline through their points; at a
-/// corner it is within 0.1 mm of it.
+/// One curve along several that follow each other: a line where all lie on one.
 Curve joined(const std::vector<Curve>& links);
-
-/// The curve at `distance` metres to the left of `curve`, a spline; nothing where the curve bends more tightly than that,
-/// or has a corner, and then `at` is the arc length of the place. Lines stay lines.
-std::optional<Curve> beside(const Curve& curve, double distance, double& at);
 
 }  // namespace garment::geometry
