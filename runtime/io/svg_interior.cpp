@@ -76,7 +76,8 @@ void SvgPanel::draw_lenses(SvgPaper& paper, const Placed& on) const {
     paper.polyline(on({from, Point(middle + side), to, Point(middle - side)}), true, kCut);
     paper.line(on(from), on(to), kLine);
     for (const Point& tip : {from, to}) paper.circle(on(tip), 1.2, kMark);
-    paper.text(on(middle + side + Point(2, 0)), dart.name, {3, Anchor::start, 0, false, kName});
+    const Point right = side[0] > 0 ? Point(middle + side) : Point(middle - side);
+    paper.text(on(right + Point(2, 0)), dart.name, {3, Anchor::start, 0, false, kName});
   }
 }
 

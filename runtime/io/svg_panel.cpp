@@ -138,8 +138,8 @@ void SvgPanel::draw(SvgPaper& paper, const Point& corner) const {
   const Placed on{Point(corner[0] - room_.low[0], corner[1] + room_.high[1])};
   paper.begin_group(panel_.name);
   draw_outline(paper, on);
-  draw_allowances(paper, on);
   draw_interior(paper, on);
+  draw_allowances(paper, on);
   draw_middle(paper, on);
   draw_edge_names(paper, on);
   draw_notches(paper, on);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "runtime/base/number.hpp"
+#include "runtime/io/cut_lines.hpp"
 #include "runtime/io/svg_panel.hpp"
 
 namespace garment::io {
@@ -145,7 +146,11 @@ std::string write(const design::Garment& g, const model::Model* model) {
   for (std::size_t k = 0; k < panels.size(); ++k) panels[k].draw(paper, origin + layout.corners[k]);
   Point at(kBorder, origin[1] + layout.size[1] + 14);
   draw_scale_bar(paper, at);
-  paper.text(at + Point(125, 2), "Outlines are stitch lines: add seam allowance. Lengths in mm.",
+  const bool allowed = std::any_of(g.panels.begin(), g.panels.end(),
+                                   [](const design::Panel& panel) { return !cut_lines(panel).empty(); });
+  paper.text(at + Point(125, 2),
+             allowed ? "Thick outlines are stitch lines, thin ones outside cut lines. Lengths in mm."
+                     : "Outlines are stitch lines: add seam allowance. Lengths in mm.",
              {4.5, Anchor::start, 0, false, "#3c414b"});
   double width = std::max(layout.size[0], 260.0);
   at[1] += 20;

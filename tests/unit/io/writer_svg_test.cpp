@@ -3,6 +3,7 @@
 #include <regex>
 
 #include "runtime/base/number.hpp"
+#include "runtime/io/cut_lines.hpp"
 #include "runtime/io/svg_panel.hpp"
 #include "runtime/io/svg_writer.hpp"
 #include "tests/support/skirt_pattern.hpp"
@@ -144,4 +145,83 @@ TEST_CASE("area and mass come from the model", "[writer]") {
   r.mass = 0.0512;
   m.panels.push_back(r);
   CHECK(io::write_pattern_svg(test::make_skirt_pattern(), m).find("2500 cm2, 51.2 g") != std::string::npos);
+}
+
+namespace {
+
+/// 20 cm by 30 cm, counter-clockwise, with an allowance of `width` at every edge.
+design::Panel sheet(double width) {
+  design::Panel p;
+  p.name = "sheet";
+  const design::Point2 corners[] = {{0, 0}, {0.2, 0}, {0.2, 0.3}, {0, 0.3}};
+  for (int k = 0; k < 4; ++k) {
+    design::Edge edge;
+    edge.name = "e" + std::to_string(k);
+    edge.curve = geometry::Curve(corners[k], corners[(k + 1) % 4]);
+    edge.allowance = width;
+    p.edges.push_back(edge);
+  }
+  return p;
+}
+
+double area_of(const io::CutLine& line) {
+  double twice = 0;
+  for (std::size_t k = 0; k < line.size(); ++k) {
+    const design::Point2 &a = line[k], &b = line[(k + 1) % line.size()];
+    twice += a.x() * b.y() - a.y() * b.x();
+  }
+  return twice / 2;
+}
+
+}  // namespace
+
+TEST_CASE("cut lines lie outside the stitch line by the allowance, mitred at corners", "[writer]") {
+  CHECK(io::cut_lines(sheet(0)).empty());
+  design::Panel p = sheet(0.01);
+  REQUIRE(io::cut_lines(p).size() == 1);
+  CHECK(area_of(io::cut_lines(p)[0]) == Approx(0.22 * 0.32));
+  p.edges[0].allowance = 0.04;
+  p.edges[2].allowance = 0;
+  CHECK(area_of(io::cut_lines(p)[0]) == Approx(0.22 * 0.34));
+  // A notch cut into the top: at its inner corners the cut lines cross and end there.
+  design::Panel q;
+  const design::Point2 corners[] = {{0, 0}, {0.2, 0}, {0.2, 0.3}, {0.15, 0.3}, {0.15, 0.2}, {0.05, 0.2}, {0.05, 0.3}, {0, 0.3}};
+  for (int k = 0; k < 8; ++k) {
+    design::Edge edge;
+    edge.curve = geometry::Curve(corners[k], corners[(k + 1) % 8]);
+    edge.allowance = 0.01;
+    q.edges.push_back(edge);
+  }
+  CHECK(area_of(io::cut_lines(q)[0]) == Approx(0.22 * 0.32 - 0.08 * 0.1));
+}
+
+TEST_CASE("a hole's cut line lies inside it", "[writer]") {
+  design::Panel p = sheet(0);
+  p.holes.push_back({"eye", {}, 0, 2});
+  for (const double side : {0.03, -0.03}) {
+    design::Edge edge;
+    edge.curve = geometry::Curve({0.1 + side, 0.1}, {0.1 - side, 0.1}, geometry::Arc{-0.03});
+    edge.allowance = 0.01;
+    p.hole_edges.push_back(edge);
+  }
+  REQUIRE(io::cut_lines(p).size() == 1);
+  CHECK(area_of(io::cut_lines(p)[0]) == Approx(M_PI * 4e-4).epsilon(1e-2));
+}
+
+TEST_CASE("what lies inside a panel is drawn with its name", "[writer]") {
+  design::Garment garment;
+  design::Panel p = sheet(0.01);
+  design::Edge line;
+  line.name = "roll_line";
+  line.curve = geometry::Curve({0.02, 0.1}, {0.18, 0.12});
+  p.lines.push_back(line);
+  p.slits.push_back({"vent_slit", {}, 0});
+  p.points.push_back({"bust_point", {}, {0.1, 0.2}});
+  p.inside_darts.push_back({"fish_dart", {}, {0.05, 0.15}, {0.05, 0.25}, 0.02, 0.5});
+  p.pleats.push_back({"box_pleat", {}, "e2", design::Pleat::Kind::box, 0.1, 0.01, 1, 0.04, 1, 0, false});
+  garment.panels.push_back(p);
+  const std::string svg = io::write_pattern_svg(garment);
+  CHECK(well_formed(svg));
+  for (const char* name : {"roll_line", "bust_point", "fish_dart", "box_pleat"}) CHECK(count(svg, name) == 1);
+  CHECK(svg.find("thin ones outside cut lines") != std::string::npos);
 }
