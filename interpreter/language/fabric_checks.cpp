@@ -16,14 +16,14 @@ namespace {
 ///   G / W   = 156 .. 586
 ///   EM      = 2.5 .. 8 % at 500 gf/cm, whatever the weight
 ///   W / T   = 267 .. 500 kg/m^3
-/// The bands are three times as wide on either side (twice for thickness, which varies less; EM up to five
+/// The bands are three times as wide on either side (twice for thickness, which varies less; EM up to ten
 /// times: knits give more than the woven cloths of the table).
 struct Band {
   double low, high;
 };
 Band bend_band(double w) { return {1.3e-4 / 3 * w * w, 6.8e-4 * 3 * w * w}; }
 Band shear_band(double w) { return {156.0 / 3 * w, 586.0 * 3 * w}; }
-Band extension_band() { return {0.025 / 3, 0.08 * 5}; }
+Band extension_band() { return {0.025 / 3, 0.08 * 10}; }
 Band thickness_band(double w) { return {w / (500.0 * 2), w / (267.0 / 2)}; }
 
 const char* direction_text(std::size_t d) { return d == 0 ? "_warp" : "_weft"; }

@@ -128,7 +128,7 @@ TEST_CASE("every garment block of the documents runs") {
   const std::string context = file("tests/unit/interpreter/record_context.garment");
   const std::string fence = "```garment\n";
   int blocks = 0;
-  for (const char* name : {"README.md", "docs/language.md"}) {
+  for (const char* name : {"README.md", "docs/language.md", "docs/meaning.md", "docs/prompt.md"}) {
     const std::string page = file(name);
     for (std::size_t at = page.find(fence); at != std::string::npos; at = page.find(fence, at + 1)) {
       const std::size_t begin = at + fence.size();
@@ -139,5 +139,17 @@ TEST_CASE("every garment block of the documents runs") {
       runs(block.rfind("garment 1", 0) == 0 ? block : with_example(context, block, context.size()));
     }
   }
-  CHECK(blocks >= 8);
+  CHECK(blocks >= 27);
+}
+
+TEST_CASE("a script that the guide shares with the examples is the same in both") {
+  const std::string page = file("docs/language.md");
+  int shared = 0;
+  for (const char* name : {"tshirt", "lined_skirt", "jacket_front", "cusick", "cantilever"}) {
+    INFO(name);
+    const std::string text = file(std::string("examples/") + name + ".garment");
+    CHECK(page.find("```garment\n" + text + "```\n") != std::string::npos);
+    ++shared;
+  }
+  CHECK(shared == 5);
 }
