@@ -104,17 +104,31 @@ class Modifier {
     std::vector<std::string> parts;
     for (const Target& target : find_targets(program_, expr, scope)) {
       if (target.panel != drawing_.index) continue;
-      if (!target.rest.empty() && !drawing_.recipe.fold.empty() && (target.rest[0] == "left" || target.rest[0] == "right"))
-        fail(program_,
-             Message("G0433", "the halves of `" + panel_.name + "` are drawn as one and change together", expr.span)
-                 .help("leave `" + target.rest[0] + "` out, or draw the whole panel"));
-      if (target.rest.size() > 1)
-        fail(program_, Message("G0433", "`" + target.rest[1] + "` is no part of `" + panel_.name + "` that can be changed",
+      std::vector<std::string> rest = target.rest;
+      if (!rest.empty() && !drawing_.recipe.fold.empty() && (rest[0] == "left" || rest[0] == "right")) {
+        const std::string half = rest[0];
+        rest.erase(rest.begin());
+        halves_.push_back({half, rest.empty() ? "" : rest[0], expr.span});
+      }
+      if (rest.size() > 1)
+        fail(program_, Message("G0433", "`" + rest[1] + "` is no part of `" + panel_.name + "` that can be changed",
                                expr.span)
                            .help("name an edge, line, point or hole of the panel"));
-      parts.push_back(target.rest.empty() ? "" : target.rest[0]);
+      parts.push_back(rest.empty() ? "" : rest[0]);
     }
     return parts;
+  }
+
+  /// The halves of a panel on the fold are drawn as one: who names one must name the other too.
+  void check_halves() {
+    for (const Half& half : halves_) {
+      const std::string other = half.side == "left" ? "right" : "left";
+      const bool both = std::any_of(halves_.begin(), halves_.end(), [&](const Half& h) { return h.side == other && h.part == half.part; });
+      if (!both)
+        fail(program_,
+             Message("G0433", "the halves of `" + panel_.name + "` are drawn as one and change together", half.span)
+                 .help("leave `" + half.side + "` out, or name the " + other + " one too, or draw the whole panel"));
+    }
   }
 
   void move() {
@@ -132,7 +146,8 @@ class Modifier {
         if (name.empty() || !design::move(trial, {name}, shift)) fail_part(operand, name);
         names.push_back(name);
       }
-    design::move(panel_, names, shift);
+    check_halves();
+    design::move(panel_, names, shift, drawing_.recipe.fold);
   }
 
   [[noreturn]] void fail_part(const Expr& operand, const std::string& name) {
@@ -163,7 +178,7 @@ class Modifier {
     clauses_.finish();
     for (const Expr& operand : statement_.operands)
       for (const std::string& part : parts_of(operand, scope_))
-        if (!part.empty()) fail(program_, Message("G0306", "`scale` takes a panel as a whole", operand.span)
+        if (!part.empty() || !halves_.empty()) fail(program_, Message("G0306", "`scale` takes a panel as a whole", operand.span)
                            .help("to change one edge, `move` it"));
     for (const double f : {x, y})
       if (!(f >= 0.2 && f <= 5))
@@ -173,7 +188,7 @@ class Modifier {
 
   void slash() {
     const std::vector<std::string> parts = parts_of(statement_.operands[0], scope_);
-    if (statement_.operands.size() != 1 || parts.size() != 1 || !parts[0].empty())
+    if (statement_.operands.size() != 1 || parts.size() != 1 || !parts[0].empty() || !halves_.empty())
       fail(program_, Message("G0306", "`slash` takes one panel", statement_.operands.back().span)
                          .help("as in `slash sleeve along sleeve.elbow spread 2 cm`"));
     const BoundClause& along = clauses_.need("along");
@@ -194,6 +209,7 @@ class Modifier {
 
   std::string line_name(const Expr& expr, Scope& scope) {
     std::string name = expr.kind == ExprKind::name ? name_of(program_, expr, scope) : "";
+    // A half's line stands for the drawn one: the panel that is slashed is named whole.
     for (const std::string& part : parts_of(expr, scope)) name = part;
     std::vector<std::string> names;
     for (const design::Edge& edge : panel_.lines) {
@@ -208,8 +224,15 @@ class Modifier {
                                            : did_you_mean(name, names)));
   }
 
+  /// A half that an operand names, and what of it.
+  struct Half {
+    std::string side, part;
+    Span span;
+  };
+
   Drawing& drawing_;
   Program& program_;
+  std::vector<Half> halves_;
   design::Panel& panel_;
   const Statement& statement_;
   Scope& scope_;

@@ -11,9 +11,9 @@ namespace garment::design {
 
 /// Moves what is named (edges of the outline or of holes, whole holes, lines, points) by `by`, metres. Corners of moved
 /// edges move; an edge with one moved corner is drawn along with it (see geometry::warped). Lines that end on a changed
-/// edge follow it; notches, darts and pleats keep their fraction of the edge. False where the panel has nothing of that
-/// name.
-bool move(Panel& panel, const std::vector<std::string>& names, const Point2& by);
+/// edge follow it; notches, darts and pleats keep their fraction of the edge. Corners on the straight edge `fold` ("" where
+/// there is none) stay on it, unless it is named itself. False where the panel has nothing of that name.
+bool move(Panel& panel, const std::vector<std::string>& names, const Point2& by, const std::string& fold = "");
 
 /// Cuts the panel along its line `line`, from edge to edge, and spreads the parts: by `at_start` at the line's start and
 /// `at_end` at its end, metres >= 0 (0 is a hinge). The part that holds the edge `fixed`, or where there is none the

@@ -19,22 +19,31 @@ struct Redrawn {
   geometry::Curve before, after;
 };
 
-/// Moves the corners of the named edges of one loop, edges[first .. first + count).
+/// Moves the corners of the named edges of one loop, edges[first .. first + count); those on the edge `fold` stay on it.
 bool move_loop(Panel& panel, std::vector<Edge>& edges, std::size_t first, std::size_t count,
-               const std::vector<std::string>& names, const Point2& by, std::vector<Redrawn>& redrawn) {
-  std::vector<bool> moved(count, false);  // corner k is the start of edge k
+               const std::vector<std::string>& names, const Point2& by, const std::string& fold,
+               std::vector<Redrawn>& redrawn) {
+  const Point2 none(0, 0);
+  std::vector<Point2> shift(count, none);  // corner k is the start of edge k
+  std::vector<bool> moved(count, false);
   bool any = false;
   for (std::size_t k = 0; k < count; ++k) {
     if (!named(names, edges[first + k].name)) continue;
     moved[k] = moved[(k + 1) % count] = any = true;
+    shift[k] = shift[(k + 1) % count] = by;
+  }
+  for (std::size_t k = 0; k < count && any && !named(names, fold); ++k) {
+    if (edges[first + k].name != fold) continue;
+    const geometry::Curve& course = edges[first + k].curve;
+    const Point2 along = (course.end() - course.start()).normalized();
+    for (const std::size_t corner : {k, (k + 1) % count}) shift[corner] = shift[corner].dot(along) * along;
   }
   for (std::size_t k = 0; k < count && any; ++k) {
-    const Point2 none(0, 0);
-    const bool start = moved[k], end = moved[(k + 1) % count];
-    if (!start && !end) continue;
+    const Point2 start = shift[k], end = shift[(k + 1) % count];
+    if (!moved[k] && !moved[(k + 1) % count]) continue;
     Edge& edge = edges[first + k];
     const geometry::Curve before = edge.curve;
-    const geometry::Curve after = geometry::warped(before, start ? by : none, end ? by : none);
+    const geometry::Curve after = geometry::warped(before, start, end);
     const double ratio = before.length() > 0 ? after.length() / before.length() : 1;
     detail::redraw(panel, edge, after, [ratio](double s) { return ratio * s; });
     redrawn.push_back({before, after});
@@ -69,16 +78,16 @@ void redraw(Panel& panel, Edge& edge, const geometry::Curve& course, const std::
 
 }  // namespace detail
 
-bool move(Panel& panel, const std::vector<std::string>& names, const Point2& by) {
+bool move(Panel& panel, const std::vector<std::string>& names, const Point2& by, const std::string& fold) {
   std::vector<Redrawn> redrawn;
   std::vector<std::string> all = names;  // a hole stands for all its edges
   for (const Hole& hole : panel.holes)
     for (int k = hole.first; k < hole.first + hole.count && named(names, hole.name); ++k)
       all.push_back(panel.hole_edges[static_cast<std::size_t>(k)].name);
-  bool any = move_loop(panel, panel.edges, 0, panel.edges.size(), all, by, redrawn);
+  bool any = move_loop(panel, panel.edges, 0, panel.edges.size(), all, by, fold, redrawn);
   for (const Hole& hole : panel.holes)
     any = move_loop(panel, panel.hole_edges, static_cast<std::size_t>(hole.first),
-                    static_cast<std::size_t>(hole.count), all, by, redrawn) ||
+                    static_cast<std::size_t>(hole.count), all, by, fold, redrawn) ||
           any;
   for (Edge& line : panel.lines) {
     const bool own = named(names, line.name);
