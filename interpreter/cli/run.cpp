@@ -128,6 +128,7 @@ struct Run {
     model.hold_kind = built.model->hold_kind;
     model.hold_point = built.model->hold_point;
     model.hold_normal = built.model->hold_normal;
+    model.bend_rigidity = built.model->bend_rigidity;  // jaws stiffen the cloth where it leaves them
   }
 
   void refuse_record(const interpreter::Act& act) {
@@ -146,12 +147,17 @@ struct Run {
     if (!r.passed && code == kOk) code = kExpectFailed;
   }
 
+  void keep_measure(const interpreter::MeasureValue& m) {
+    report.stated_measures.push_back({m.name, m.value, m.unit, m.text});
+  }
+
   void measure(const interpreter::Act& act) {
     if (refuse_before_drape(act, "measure")) return;
     session::DrapeAnswers answers(project.result.garment, project.result.bodies, model, state, report.drape);
     interpreter::MeasureResult r = interpreter::evaluate_measure(project.result, act, answers);
     show(r.diagnostics, project.sources, terminal);
-    report.expects.push_back({r.measure.name, r.measure.value, r.measure.text, "", true});
+    if (!r.diagnostics.empty()) code = kDiagnostics;
+    if (!r.measure.text.empty()) keep_measure(r.measure);
   }
 };
 
@@ -185,9 +191,9 @@ void summarise(const results::Report& report, const OutputFolder& out, bool drap
                                   : fmt::format("{} intersections", report.drape.self_intersections +
                                                                         report.drape.body_intersections +
                                                                         report.drape.inside_body)));
+  for (const results::MeasureOutcome& m : report.stated_measures) terminal.note(fmt::format("       {} = {}", m.name, m.shown));
   for (const results::ExpectOutcome& e : report.expects)
-    if (!e.expected.empty())
-      terminal.note(fmt::format("{} {}: found {}", e.passed ? "ok    " : "FAILED", e.text, e.shown));
+    terminal.note(fmt::format("{} {}: found {}", e.passed ? "ok    " : "FAILED", e.text, e.shown));
   terminal.note(fmt::format("results in {}/", out.folder()));
 }
 
@@ -206,6 +212,7 @@ ExitCode run_script(const RunOptions& options, results::Report& report, bool& re
   Run under_way{options, host, terminal, project, *model, out, report, project.result.garment, {}, false, kOk};
   under_way.state.position = model->start;
   under_way.state.velocity.assign(model->n_particles(), Eigen::Vector3d::Zero());
+  for (const interpreter::MeasureValue& m : project.result.measures) under_way.keep_measure(m);
   perform(under_way);
   watch.lap("drape");
 

@@ -95,12 +95,33 @@ void add_pin(const design::Pin& pin, const std::vector<MeshedPanel>& panels, Hol
   holds.add(particle, HoldKind::point, model.start[particle], model);
 }
 
+/// True where the region reaches: its border counts, whatever the last bits of a coordinate say.
+bool reaches(const design::RegionTest& test, const design::Point2& p) {
+  constexpr double kOnBorder = 1e-6;  // m
+  for (const auto& [x, y] : {std::pair{0., 0.}, {kOnBorder, 0.}, {-kOnBorder, 0.}, {0., kOnBorder}, {0., -kOnBorder}})
+    if (test.contains(p + design::Point2(x, y))) return true;
+  return false;
+}
+
+/// Between the jaws nothing bends. Where the cloth leaves them, at `b` of a stencil (a, b, c) with a and b held, only the half
+/// towards c bends: h- + h+ of the energy p B psi^2 / (h- + h+) is h+ alone. Without this a strip would be longer by h / 2.
+void stiffen_at_jaws(const std::vector<bool>& clamped, model::Model& model) {
+  for (std::size_t k = 0; k < model.bend.size(); ++k) {
+    const model::Indices<3>& at = model.bend[k];
+    const bool before = clamped[at[0]], after = clamped[at[2]];
+    if (!clamped[at[1]] || before == after) continue;
+    const Eigen::Vector2d& h = model.bend_lengths[k];
+    model.bend_rigidity[k] *= h.sum() / (before ? h[1] : h[0]);
+  }
+}
+
 /// What lies between the jaws stays where it starts.
 void add_clamp(const design::Clamp& clamp, const design::Garment& garment,
                const std::vector<BorderPanel>& outlines, const Borders& borders,
-               const std::vector<MeshedPanel>& panels, Holds& holds, model::Model& model) {
+               const std::vector<MeshedPanel>& panels, Holds& holds, std::vector<bool>& clamped, model::Model& model) {
   auto hold = [&](int panel, std::size_t vertex) {
     Index particle = model.vertex_particle[panels[panel].first_vertex + vertex];
+    clamped[particle] = true;
     holds.add(particle, HoldKind::point, model.start[particle], model);
   };
   for (const design::EdgePart& part : clamp.parts) {
@@ -113,7 +134,7 @@ void add_clamp(const design::Clamp& clamp, const design::Garment& garment,
     const design::RegionTest test(garment.panels[part.panel], part.shape);
     const MeshedPanel& p = panels[part.panel];
     for (std::size_t v = 0; v < p.mesh.at.size(); ++v)
-      if (test.contains(p.mesh.at[v])) hold(part.panel, v);
+      if (reaches(test, p.mesh.at[v])) hold(part.panel, v);
   }
 }
 
@@ -147,8 +168,10 @@ void add_holds(const design::Garment& garment, const std::vector<body::Body>& bo
       }
     }
   }
+  std::vector<bool> clamped(model.n_particles(), false);
   for (const design::Clamp& clamp : garment.scene.clamps)
-    add_clamp(clamp, garment, outlines, borders, panels, holds, model);
+    add_clamp(clamp, garment, outlines, borders, panels, holds, clamped, model);
+  stiffen_at_jaws(clamped, model);
   for (const design::Pin& pin : garment.pins) add_pin(pin, panels, holds, model, findings);
 }
 
