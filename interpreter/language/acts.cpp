@@ -1,5 +1,6 @@
 #include "interpreter/language/acts.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "interpreter/language/clauses.hpp"
@@ -37,6 +38,30 @@ struct DrapeGuard {
   DrapeGuard& operator=(const DrapeGuard&) = delete;
   ~DrapeGuard() { program.drape = nullptr; }
 };
+
+/// Mistakes that may come of the stand-in answers alone: no finite number, outside a table, outside a list or its like.
+bool hangs_on_values(const grammar::Diagnostic& diagnostic) {
+  return diagnostic.code == "G0319" || diagnostic.code == "G0352" || diagnostic.code == "G0309" ||
+         diagnostic.code == "G0342";
+}
+
+/// Evaluates what asks the drape with stand-in answers. What is wrong whatever the answers are is reported; what hangs on
+/// them is judged when the drape is there.
+template <class Question>
+void try_question(Program& program, const Question& question) {
+  const AnyDrape any;
+  const DrapeGuard guard(program, any);
+  const std::size_t before = program.diagnostics.size();
+  const bool had_error = program.has_error;
+  try {
+    question();
+  } catch (const Stop&) {
+    const auto first = program.diagnostics.begin() + static_cast<std::ptrdiff_t>(before);
+    if (first == program.diagnostics.end() || !std::all_of(first, program.diagnostics.end(), hangs_on_values)) throw;
+    program.diagnostics.erase(first, program.diagnostics.end());
+    program.has_error = had_error;
+  }
+}
 
 bool is_comparison(const Expr& expr) {
   static const char* const words[] = {"==", "!=", "<", "<=", ">", ">=", "is"};
@@ -125,9 +150,8 @@ Verdict judge(Program& program, const Statement& statement, Scope& scope) {
 }
 
 void check_questions(Program& program, const std::vector<const Expr*>& questions, Scope& scope) {
-  const AnyDrape any;
-  DrapeGuard guard(program, any);
-  for (const Expr* question : questions) eval(program, *question, scope);
+  for (const Expr* question : questions)
+    try_question(program, [&] { eval(program, *question, scope); });
 }
 
 void run_garment(Program& program, const Item& item) {
@@ -194,11 +218,7 @@ void run_expect(Program& program, const Item& item) {
   Scope& scope = *item.scope;
   if (statement.operands.size() > 1)
     fail(program, Message("G0313", "`expect` takes one condition", statement.operands[1].span));
-  {
-    const AnyDrape any;
-    DrapeGuard guard(program, any);
-    judge(program, statement, scope);
-  }
+  try_question(program, [&] { judge(program, statement, scope); });
   Span span = statement.operands[0].span;
   if (!statement.clauses.empty()) span = grammar::cover(span, statement.clauses.back().span);
   program.acts.push_back(
@@ -241,9 +261,7 @@ void run_assert(Program& program, const Item& item) {
   if (statement.operands.size() == 2)
     what = eval_text(program, statement.operands[1], scope, "what must hold");
   if (!statement.operands.empty() && asks_drape(statement.operands[0], scope)) {
-    const AnyDrape any;
-    DrapeGuard guard(program, any);
-    judge(program, statement, scope);
+    try_question(program, [&] { judge(program, statement, scope); });
     program.acts.push_back(
         {ExpectAct{&statement, &scope, std::string(program.sources.text(statement.operands[0].span))},
          statement.span});
@@ -283,11 +301,7 @@ void run_measure(Program& program, const Item& item) {
     program.measures.push_back(measure_value(declaration.name, force(program, declaration, statement.span)));
     return;
   }
-  {
-    const AnyDrape any;
-    DrapeGuard guard(program, any);
-    force(program, declaration, statement.span);
-  }
+  try_question(program, [&] { force(program, declaration, statement.span); });
   program.acts.push_back({MeasureAct{declaration.name, &statement, declaration.scope,
                                      std::string(program.sources.text(statement.clauses[0].values[0].span))},
                           statement.span});

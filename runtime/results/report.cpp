@@ -95,6 +95,16 @@ Json expects(const std::vector<ExpectOutcome>& all) {
   return out;
 }
 
+Json stated_measures(const std::vector<MeasureOutcome>& all) {
+  Json out = Json::array();
+  for (const MeasureOutcome& m : all)
+    out.push_back({{"name", m.name},
+                   {"value", m.value ? Json(*m.value) : Json(nullptr)},
+                   {"unit", m.unit},
+                   {"shown", m.shown}});
+  return out;
+}
+
 Json solves(const std::vector<SolveOutcome>& all) {
   Json out = Json::array();
   for (const SolveOutcome& s : all)
@@ -170,6 +180,7 @@ std::string report_json(const Report& r) {
                     {"panels", std::move(panels)},
                     {"seams", seams(r.measures.seams)},
                     {"solves", solves(r.solves)},
+                    {"measures", stated_measures(r.stated_measures)},
                     {"expects", expects(r.expects)},
                     {"outputs", outputs(r.outputs)},
                     {"state_hash", r.state_hash},

@@ -25,7 +25,15 @@ struct ParameterValue {
   bool stated = false;  ///< given from outside rather than the script's default
 };
 
-/// One `expect` (or `measure`, which cannot fail and has no `expected`).
+/// One `measure` of the script.
+struct MeasureOutcome {
+  std::string name;
+  std::optional<double> value;  ///< SI; nothing where it is no number
+  std::string unit;             ///< SI unit of `value`, "" for numbers
+  std::string shown;            ///< as printed by the language, "58 cm"
+};
+
+/// One `expect`.
 struct ExpectOutcome {
   std::string text;             ///< the statement as written
   std::optional<double> value;  ///< SI; nothing when it could not be evaluated
@@ -66,6 +74,7 @@ struct Report {
   Measures measures;
   std::string state_hash;
   std::vector<SolveOutcome> solves;
+  std::vector<MeasureOutcome> stated_measures;  ///< those of the script
   std::vector<ExpectOutcome> expects;
   std::vector<OutputFile> outputs;
   std::vector<PhaseTime> phases;  ///< wall clock, s

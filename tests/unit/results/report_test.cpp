@@ -26,6 +26,7 @@ results::Report sample() {
   r.drape.status = simulator::DrapeStatus::at_rest;
   r.drape.steps = 12;
   r.drape.residual = 0.04;
+  r.stated_measures = {{"hem", 0.58, "m", "58 cm"}, {"title", {}, "", "\"skirt\""}};
   r.expects = {{"expect strain(all) < 8%", 0.031, "3.1 %", "< 8 %", true},
                {"expect mass < 1 kg", {}, "", "", false}};
   r.phases = {{"model", 0.5}, {"drape", 2.0}, {"drape", 1.0}};
@@ -46,6 +47,8 @@ TEST_CASE("the report holds what was measured", "[report]") {
   CHECK(j["panels"].size() == 1);
   CHECK(j["garment"]["strain"]["largest"].get<double>() < 1e-12);
   CHECK(j["garment"]["clearance"].is_null());
+  CHECK(j["measures"][0] == json{{"name", "hem"}, {"value", 0.58}, {"unit", "m"}, {"shown", "58 cm"}});
+  CHECK(j["measures"][1]["value"].is_null());
   CHECK(j["expects"][0]["value"] == 0.031);
   CHECK(j["expects"][1]["value"].is_null());
   CHECK(j["state_hash"].get<std::string>().size() == 16);
