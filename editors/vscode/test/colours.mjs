@@ -53,6 +53,8 @@ const kinds = {
 };
 const plain = /keyword\.(?!operator)|constant\.numeric/;  // what no comment and no literal text may hold
 
+const shapes = new Set(["within", "above", "below", "left", "right", "not"]);
+
 /** What the tree says of a text: [begin, end, kind] in bytes. */
 function expected(tree, bytes) {
   const out = [];
@@ -90,7 +92,12 @@ function expected(tree, bytes) {
       });
       for (const clause of s.clauses ?? []) {
         if (!(s.keyword === "if")) out.push([clause.span[0], clause.span[0] + clause.word.length, "clause"]);
-        clause.values.forEach((v) => walk(v));
+        // The first shape of a region stands right after the colon; its word is coloured as the others are.
+        clause.values.forEach((v, k) => {
+          const shape = s.keyword === "region" && clause.word === ":" && k === 0 && v.kind === "name" && clause.values.length > 1;
+          if (shape && shapes.has(slice(...v.span))) out.push([...v.span, "clause"]);
+          else walk(v);
+        });
       }
       if (s.body) block(s.body);
       if (s.else) block(s.else);
