@@ -41,9 +41,6 @@ void fill_sources(results::Report& report, const Project& project) {
     std::string name = s.name.substr(s.name.find_last_of('/') + 1);
     (i == project.source ? report.sources : report.library).push_back({name, sha256(s.text)});
   }
-  // Those that do not ask the drape.
-  for (const interpreter::MeasureValue& m : project.result.measures)
-    report.expects.push_back({m.name, m.value, m.text, "", true});
   for (const interpreter::SolvedValue& s : project.result.solved)
     report.solves.push_back({s.name, s.value, s.residual_value, s.text, s.residual, s.bound});
   for (const interpreter::Parameter& p : project.result.parameters) report.parameters.push_back({p.name, p.value, p.given});

@@ -82,6 +82,24 @@ int steps_for(double x, double& cost) {
   return best;
 }
 
+/// The loop of the border that piece `k` belongs to.
+std::size_t loop_of(const Outline& outline, std::size_t k) {
+  std::size_t l = 0;
+  while (l + 1 < outline.loops.size() && outline.loops[l + 1] <= k) ++l;
+  return l;
+}
+
+/// Who follows whom: the next vertex, and after the last of a loop its first. `begin` holds the first vertex of each loop.
+void close_loops(const std::vector<int>& begin, Border& border) {
+  const auto n = static_cast<int>(border.at.size());
+  border.next.resize(border.at.size());
+  for (int k = 0; k < n; ++k) border.next[k] = k + 1;
+  for (std::size_t l = 0; l < begin.size(); ++l) {
+    const int end = l + 1 < begin.size() ? begin[l + 1] : n;
+    if (end > begin[l]) border.next[end - 1] = begin[l];
+  }
+}
+
 }  // namespace
 
 std::vector<double> choose_fractions(std::vector<std::array<double, 2>> candidates, double length) {
@@ -189,6 +207,7 @@ Borders make_borders(const std::vector<BorderPanel>& panels, const std::vector<G
 
   Borders borders;
   borders.panels.resize(panels.size());
+  std::vector<std::vector<int>> loop_begin(panels.size());  // of each loop: its first vertex
   for (const Stretch& s : matched.stretches) {
     const Piece& piece = panels[s.panel].outline.pieces[s.piece];
     Border& border = borders.panels[s.panel];
@@ -199,9 +218,12 @@ Borders make_borders(const std::vector<BorderPanel>& panels, const std::vector<G
       if (k == m) return t1;
       return t0 + (t1 - t0) * (s.reversed ? 1 - f[m - k] : f[k]);
     };
+    const Outline& outline = panels[s.panel].outline;
+    const std::size_t loop = loop_of(outline, static_cast<std::size_t>(s.piece));
+    while (loop_begin[s.panel].size() <= loop) loop_begin[s.panel].push_back(static_cast<int>(border.at.size()));
     borders.stretch_first.push_back(static_cast<int>(border.at.size()));
     borders.stretch_count.push_back(static_cast<int>(m));
-    const Outline& outline = panels[s.panel].outline;
+    borders.stretch_loop.push_back(static_cast<int>(loop));
     if (frames[s.panel].symmetric && static_cast<std::size_t>(s.piece) == outline.n_half && s.lower == 0)
       border.half = border.at.size();
     for (std::size_t k = 0; k < m; ++k) {
@@ -211,6 +233,10 @@ Borders make_borders(const std::vector<BorderPanel>& panels, const std::vector<G
       border.arc_from.push_back(piece.arc(position(k)));
       border.arc_to.push_back(piece.arc(position(k + 1)));
     }
+  }
+  for (std::size_t p = 0; p < panels.size(); ++p) {
+    close_loops(loop_begin[p], borders.panels[p]);
+    borders.panels[p].loops = std::move(loop_begin[p]);
   }
   for (std::size_t p = 0; p < panels.size(); ++p) {  // halves: mirror images to the bit
     Border& border = borders.panels[p];

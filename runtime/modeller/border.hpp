@@ -33,9 +33,11 @@ struct GridFrame {
 /// lowest point.
 GridFrame make_frame(const design::Panel& panel, const Outline& outline, double h);
 
-/// A panel's border particles, counter-clockwise. Segment k runs from vertex k to vertex k + 1.
+/// A panel's border particles, loop by loop, with the cloth to the left. Segment k runs from vertex k to vertex next[k].
 struct Border {
   std::vector<Point2> at;
+  std::vector<int> next;      ///< k + 1, at the end of a loop its first vertex
+  std::vector<int> loops;     ///< first vertex of each loop
   std::vector<double> bulge;  ///< area between segment and curve, positive outside the polygon, m^2
   std::vector<int> piece;     ///< of segment k
   std::vector<double> arc_from, arc_to;  ///< ends of segment k as arc lengths on its piece's curve, m
@@ -46,6 +48,7 @@ struct Border {
 struct Borders {
   std::vector<Border> panels;
   std::vector<int> stretch_first;  ///< of every stretch: its first vertex in its panel's border
+  std::vector<int> stretch_loop;   ///< the loop it belongs to
   std::vector<int>
       stretch_count;  ///< number of its segments; 0: shorter than 0.2 h, drawn together to one point
 };

@@ -141,7 +141,7 @@ std::vector<double> vertex_areas(const PanelMesh& mesh, const Border& border, do
     for (int v : c) share[v] += cell / 4;
   }
   std::size_t n = border.at.size();
-  auto length = [&](std::size_t k) { return (border.at[(k + 1) % n] - border.at[k]).norm(); };
+  auto length = [&](std::size_t k) { return (border.at[border.next[k]] - border.at[k]).norm(); };
   for (std::size_t k = 0; k < n; ++k) {
     sum += border.bulge[k];
     perimeter += length(k);
@@ -150,7 +150,7 @@ std::vector<double> vertex_areas(const PanelMesh& mesh, const Border& border, do
   for (std::size_t k = 0; k < n; ++k) {
     double part = border.bulge[k] + rest * length(k);
     share[k] += part / 2;
-    share[(k + 1) % n] += part / 2;
+    share[border.next[k]] += part / 2;
   }
   return share;
 }

@@ -41,7 +41,7 @@ bool enters(const Vector2d& a, const Vector2d& b, const Vector2d& low, const Vec
 /// The grid over the loop's bounding box; works in units of the spacings.
 class Grid {
  public:
-  Grid(const std::vector<Vector2d>& loop, double hp, double hq) : hp_(hp), hq_(hq) {
+  Grid(const std::vector<Vector2d>& loop, const std::vector<int>& next, double hp, double hq) : next_(next), hp_(hp), hq_(hq) {
     Vector2d low(1e300, 1e300), high(-1e300, -1e300);
     for (const Vector2d& x : loop) {
       loop_.emplace_back(x.x() / hp, x.y() / hq);
@@ -67,7 +67,7 @@ class Grid {
   /// Directed border of what is left between loop and full cells.
   std::vector<std::array<int, 2>> ring_border() const {
     int n = static_cast<int>(loop_.size());
-    auto on_loop = [&](int u, int v) { return u < n && v < n && v == (u + 1) % n; };
+    auto on_loop = [&](int u, int v) { return u < n && v == next_[u]; };
     std::vector<char> taken(loop_.size(), 0);
     std::vector<std::array<int, 2>> inner;
     for (int j = 0; j + 1 < nj_; ++j) {
@@ -86,7 +86,7 @@ class Grid {
     }
     std::vector<std::array<int, 2>> border;
     for (int u = 0; u < n; ++u)
-      if (!taken[u]) border.push_back({u, (u + 1) % n});
+      if (!taken[u]) border.push_back({u, next_[u]});
     border.insert(border.end(), inner.begin(), inner.end());
     return border;
   }
@@ -94,6 +94,7 @@ class Grid {
  private:
   static constexpr int kFree = -1, kBlocked = -2;
   std::vector<Vector2d> loop_;
+  const std::vector<int>& next_;
   double hp_, hq_;
   int i0_ = 0, j0_ = 0, ni_ = 0, nj_ = 0;
   std::vector<int> node_;  // vertex at each crossing
@@ -108,7 +109,7 @@ class Grid {
 
   template <class F>
   void for_each_segment(const F& f) const {
-    for (std::size_t k = 0; k < loop_.size(); ++k) f(loop_[k], loop_[(k + 1) % loop_.size()]);
+    for (std::size_t k = 0; k < loop_.size(); ++k) f(loop_[k], loop_[next_[k]]);
   }
 
   /// Calls f(i, j) for grid indices within `reach` of the box of a and b.
@@ -139,7 +140,7 @@ class Grid {
   std::vector<double> row_crossings(const std::vector<std::vector<int>>& bins, int bin, double q) const {
     std::vector<double> result;
     for (int k : bins[bin]) {
-      const Vector2d &a = loop_[k], &b = loop_[(k + 1) % loop_.size()];
+      const Vector2d &a = loop_[k], &b = loop_[next_[k]];
       if ((a.y() <= q) == (b.y() <= q)) continue;
       result.push_back(a.x() + (q - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
     }
@@ -151,7 +152,7 @@ class Grid {
   std::vector<std::vector<int>> segments_by_row() const {
     std::vector<std::vector<int>> bins(nj_);
     for (std::size_t k = 0; k < loop_.size(); ++k) {
-      const Vector2d &a = loop_[k], &b = loop_[(k + 1) % loop_.size()];
+      const Vector2d &a = loop_[k], &b = loop_[next_[k]];
       int ja = static_cast<int>(std::floor(std::min(a.y(), b.y()))) - j0_,
           jb = static_cast<int>(std::floor(std::max(a.y(), b.y()))) - j0_;
       for (int j = ja; j <= jb; ++j) bins[j].push_back(static_cast<int>(k));
@@ -203,7 +204,7 @@ class Grid {
 
   void collect_full_cells(LoopMesh& mesh) {
     int n = static_cast<int>(loop_.size());
-    auto follows = [&](int u, int v) { return u < n && v < n && v == (u + 1) % n; };
+    auto follows = [&](int u, int v) { return u >= 0 && u < n && v == next_[u]; };
     for (int j = 0; j + 1 < nj_; ++j) {
       for (int i = 0; i + 1 < ni_; ++i) {
         if (cut_[at(i, j)] != 0) continue;
@@ -224,10 +225,10 @@ class Grid {
 
 }  // namespace
 
-LoopMesh mesh_loop(const std::vector<Vector2d>& loop, double hp, double hq) {
+LoopMesh mesh_loop(const std::vector<Vector2d>& loop, const std::vector<int>& next, double hp, double hq) {
   LoopMesh mesh;
   mesh.at = loop;
-  Grid grid(loop, hp, hq);
+  Grid grid(loop, next, hp, hq);
   grid.build(mesh);
   std::vector<std::array<int, 2>> border = grid.ring_border();
   if (border.empty()) {
@@ -256,7 +257,7 @@ LoopMesh mesh_loop(const std::vector<Vector2d>& loop, double hp, double hq) {
   mesh.ok = ring.ok;
   for (int k = 0; k < 2; ++k) mesh.bad[k] = ring.bad[k] < 0 ? -1 : vertex[ring.bad[k]];
   for (const auto& t : ring.triangles) mesh.cut.push_back({vertex[t[0]], vertex[t[1]], vertex[t[2]]});
-  if (mesh.ok) open_ears(mesh, loop.size());
+  if (mesh.ok) open_ears(mesh, next);
   return mesh;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The mesh of one polygon: full grid cells inside, triangles between them and the border.
+// The mesh of a polygon, with holes or without: full grid cells inside, triangles between them and the border.
 #include <array>
 #include <vector>
 
@@ -14,15 +14,15 @@ namespace garment::modeller {
 struct LoopMesh {
   bool ok = false;
   std::array<int, 2> bad{-1, -1};   ///< on failure: the border vertices between which the polygon is pinched
-  std::vector<Eigen::Vector2d> at;  ///< the loop's vertices first, then the interior ones, row by row
+  std::vector<Eigen::Vector2d> at;  ///< the loops' vertices first, then the interior ones, row by row
   std::vector<std::array<int, 4>> cells;  ///< full cells, all of size hp x hq
   std::vector<std::array<int, 3>> cut;    ///< triangles between full cells and border, counter-clockwise
   std::vector<std::array<int, 3>> cell_halves;  ///< two triangles per full cell, in the order of `cells`
 };
 
-/// Meshes the polygon `loop` (counter-clockwise, simple) on the grid lines p = i hp, q = j hq. Crossings
-/// nearer than 0.45 spacings to the border are left out; border vertices that lie on a crossing take its
-/// place.
-LoopMesh mesh_loop(const std::vector<Eigen::Vector2d>& loop, double hp, double hq);
+/// Meshes the polygon whose border runs from vertex k of `loop` to vertex next[k] (simple loops: the outer one
+/// counter-clockwise, holes clockwise) on the grid lines p = i hp, q = j hq. Crossings nearer than 0.45 spacings to the
+/// border are left out; border vertices that lie on a crossing take its place.
+LoopMesh mesh_loop(const std::vector<Eigen::Vector2d>& loop, const std::vector<int>& next, double hp, double hq);
 
 }  // namespace garment::modeller

@@ -68,10 +68,10 @@ std::vector<int> vertices_on(const design::EdgePart& part, const BorderPanel& ou
   auto n = static_cast<int>(border.at.size());
   for (int k = 0; k < n; ++k) {
     const Piece& piece = outline.outline.pieces[border.piece[k]];
-    if (piece.edge != part.edge) continue;
+    if (piece.edge != part.edge || piece.on != part.on) continue;
     auto inside = [&](double arc) { return arc >= low - slack && arc <= high + slack; };
     if (inside(border.arc_from[k]) && (result.empty() || result.back() != k)) result.push_back(k);
-    if (inside(border.arc_to[k])) result.push_back((k + 1) % n);
+    if (inside(border.arc_to[k])) result.push_back(border.next[k]);
   }
   return result;
 }
@@ -125,7 +125,7 @@ void add_clamp(const design::Clamp& clamp, const design::Garment& garment,
     holds.add(particle, HoldKind::point, model.start[particle], model);
   };
   for (const design::EdgePart& part : clamp.parts) {
-    if (part.on != design::EdgePart::On::outline) continue;  // told as not modelled
+    if (part.on == design::EdgePart::On::line) continue;  // told as not modelled
     for (int v : vertices_on(part, outlines[part.panel], borders.panels[part.panel]))
       hold(part.panel, static_cast<std::size_t>(v));
   }

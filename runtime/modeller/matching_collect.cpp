@@ -24,9 +24,11 @@ double break_at(Piece& piece, double t, double tolerance) {
 }
 
 bool is_valid(const design::Garment& garment, const design::EdgePart& part) {
-  return part.panel >= 0 && part.panel < static_cast<int>(garment.panels.size()) && part.edge >= 0 &&
-         part.edge < static_cast<int>(garment.panels[part.panel].edges.size()) && std::isfinite(part.from) &&
-         std::isfinite(part.to);
+  if (part.panel < 0 || part.panel >= static_cast<int>(garment.panels.size())) return false;
+  const design::Panel& panel = garment.panels[part.panel];
+  const std::size_t n = part.on == design::EdgePart::On::hole ? panel.hole_edges.size() : panel.edges.size();
+  return part.on != design::EdgePart::On::line && part.edge >= 0 && part.edge < static_cast<int>(n) &&
+         std::isfinite(part.from) && std::isfinite(part.to);
 }
 
 /// What remains of a part of an edge as drawn once the darts are cut, in walking order.
@@ -36,7 +38,7 @@ std::vector<SideSegment> resolve(const design::EdgePart& part, std::vector<Borde
   double low = std::min(part.from, part.to), high = std::max(part.from, part.to);
   for (std::size_t k = 0; k < panel.outline.pieces.size(); ++k) {
     Piece& piece = panel.outline.pieces[k];
-    if (piece.edge != part.edge) continue;
+    if (piece.edge != part.edge || piece.on != part.on) continue;
     double a = std::max(low, std::min(piece.from, piece.to)),
            b = std::min(high, std::max(piece.from, piece.to));
     if (b - a <= kTiny) continue;
@@ -128,6 +130,66 @@ void collect_darts(std::vector<BorderPanel>& panels, std::vector<Matching>& resu
   }
 }
 
+/// The side of two legs of a dart inside.
+Side lens_side(int panel, const Outline& outline, std::size_t first, bool forward) {
+  Side side;
+  for (std::size_t k : {first, first + 1}) {
+    const double length = outline.pieces[k].length();
+    side.segments.push_back({panel, static_cast<int>(k), forward ? 0 : length, forward ? length : 0, 0, 1});
+  }
+  if (!forward) std::swap(side.segments[0], side.segments[1]);
+  finish(side);
+  return side;
+}
+
+/// Darts inside: the left side of the lens against its right one, from the first tip.
+void collect_inside_darts(std::vector<BorderPanel>& panels, std::vector<Matching>& result) {
+  for (std::size_t p = 0; p < panels.size(); ++p) {
+    const Outline& outline = panels[p].outline;
+    for (std::size_t l = 1; l < outline.loops.size(); ++l) {
+      const std::size_t first = outline.begin_of(l);
+      if (outline.pieces[first].inside_dart < 0) continue;
+      const design::InsideDart& dart = panels[p].panel->inside_darts[outline.pieces[first].inside_dart];
+      Matching matching;
+      matching.name = panels[p].panel->name + "." + dart.name;
+      matching.origin = dart.origin;
+      matching.sides = {lens_side(static_cast<int>(p), outline, first, true),
+                        lens_side(static_cast<int>(p), outline, first + 2, false)};
+      result.push_back(std::move(matching));
+    }
+  }
+}
+
+/// Darts whose legs are drawn: the one leg from the tip against the other.
+void collect_leg_darts(std::vector<BorderPanel>& panels, std::vector<Matching>& result) {
+  for (std::size_t p = 0; p < panels.size(); ++p) {
+    const design::Panel& panel = *panels[p].panel;
+    for (const design::LegDart& dart : panel.leg_darts) {
+      Matching matching;
+      matching.name = panel.name + "." + dart.name;
+      matching.origin = dart.origin;
+      const design::Edge* legs[2] = {nullptr, nullptr};
+      int index[2] = {-1, -1};
+      for (std::size_t e = 0; e < panel.edges.size(); ++e)
+        for (int k = 0; k < 2; ++k)
+          if (panel.edges[e].name == (k == 0 ? dart.leg_a : dart.leg_b)) legs[k] = &panel.edges[e], index[k] = static_cast<int>(e);
+      if (legs[0] == nullptr || legs[1] == nullptr) continue;
+      // They meet in the tip: drawn towards it is walked backwards.
+      const bool a_ends = (legs[0]->curve.end() - legs[1]->curve.start()).norm() <
+                          (legs[0]->curve.start() - legs[1]->curve.end()).norm();
+      for (int k = 0; k < 2; ++k) {
+        const double length = legs[k]->curve.length();
+        const bool from_start = (k == 0) != a_ends;
+        Side side;
+        side.segments = resolve({static_cast<int>(p), index[k], from_start ? 0 : length, from_start ? length : 0}, panels);
+        finish(side);
+        matching.sides.push_back(std::move(side));
+      }
+      result.push_back(std::move(matching));
+    }
+  }
+}
+
 void collect_halves(std::vector<BorderPanel>& panels, std::vector<Matching>& result) {
   for (std::size_t p = 0; p < panels.size(); ++p) {
     const Outline& outline = panels[p].outline;
@@ -156,6 +218,8 @@ std::vector<Matching> collect_matchings(const design::Garment& garment, std::vec
   std::vector<Matching> result;
   for (const design::Seam& seam : garment.seams) collect_seam(garment, seam, panels, result, findings);
   collect_darts(panels, result);
+  collect_leg_darts(panels, result);
+  collect_inside_darts(panels, result);
   collect_halves(panels, result);
   return result;
 }

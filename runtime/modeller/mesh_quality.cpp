@@ -13,10 +13,10 @@ double least_sine(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eige
          std::max({ab * bc, bc * ca, ca * ab, 1e-300});  // the smallest angle lies between the longest sides
 }
 
-void open_ears(LoopMesh& mesh, std::size_t n_loop) {
+void open_ears(LoopMesh& mesh, const std::vector<int>& next) {
   constexpr double kLeastSine = 0.35;  // about 20 deg
-  int n = static_cast<int>(n_loop);
-  auto on_loop = [&](int u, int v) { return u < n && v < n && v == (u + 1) % n; };
+  int n = static_cast<int>(next.size());
+  auto on_loop = [&](int u, int v) { return u < n && v == next[u]; };
   std::map<std::array<int, 2>, std::size_t> side;  // directed side -> triangle
   for (std::size_t t = 0; t < mesh.cut.size(); ++t)
     for (int k = 0; k < 3; ++k) side[{mesh.cut[t][k], mesh.cut[t][(k + 1) % 3]}] = t;

@@ -153,6 +153,43 @@ void append_edge(const design::Panel& panel, int e, bool forward, const std::vec
   walk_to(forward ? curve.length() : 0);
 }
 
+/// The loop of a hole, with the cloth to the left: clockwise. Gives the area that it cuts away, m^2.
+double append_hole(const design::Panel& panel, const design::Hole& hole, Outline& outline) {
+  double area = 0;
+  for (int k = 0; k < hole.count; ++k) area += panel.hole_edges[hole.first + k].curve.area_term();
+  outline.loops.push_back(outline.pieces.size());
+  for (int k = 0; k < hole.count; ++k) {
+    Piece piece;
+    piece.edge = hole.first + (area < 0 ? k : hole.count - 1 - k);
+    piece.on = design::EdgePart::On::hole;
+    piece.curve = panel.hole_edges[piece.edge].curve;
+    (area < 0 ? piece.to : piece.from) = piece.curve.length();
+    outline.pieces.push_back(std::move(piece));
+  }
+  return std::abs(area);
+}
+
+/// The lens of a dart inside: from its first tip along its left side to the other tip, and back along its right side.
+double append_lens(const design::InsideDart& dart, int index, Outline& outline) {
+  const Point2 along = (dart.to - dart.from).normalized(), left(-along.y(), along.x());
+  const Point2 widest = dart.from + dart.at * (dart.to - dart.from);
+  const Point2 corners[] = {dart.from, widest + dart.width / 2 * left, dart.to, widest - dart.width / 2 * left};
+  outline.loops.push_back(outline.pieces.size());
+  for (int k = 0; k < 4; ++k) {
+    Piece leg = make_leg(corners[k], corners[(k + 1) % 4], -1, false);
+    leg.inside_dart = index;
+    outline.pieces.push_back(std::move(leg));
+  }
+  return 0.5 * dart.width * (dart.to - dart.from).norm();
+}
+
+bool check_lens(const design::Panel& panel, const design::InsideDart& dart, Findings& findings) {
+  if (dart.width > 0 && dart.at > 0 && dart.at < 1 && (dart.to - dart.from).norm() > kMeet) return true;
+  report(findings, "G0453", dart.origin, fmt::format("dart `{}` inside panel `{}` has no extent", dart.name, panel.name),
+         "give it two tips, a width, and a widest place between the tips");
+  return false;
+}
+
 bool mirrors(const Piece& a, const Piece& b, double fold_x) {
   auto mirror = [&](const Point2& p) { return Point2(2 * fold_x - p.x(), p.y()); };
   if (std::abs(a.length() - b.length()) > kMeet) return false;
@@ -178,10 +215,11 @@ void find_half(Outline& outline, double fold_x) {
   outline.n_half = n / 2;
 }
 
-bool check_crossing(const design::Panel& panel, const Outline& outline, double h, Findings& findings) {
+/// Loop `l` of the border crosses itself nowhere. (That loops keep apart shows in the mesh.)
+bool check_crossing(const design::Panel& panel, const Outline& outline, std::size_t l, double h, Findings& findings) {
   std::vector<Point2> loop;
   std::vector<std::size_t> piece_of;
-  for (std::size_t k = 0; k < outline.pieces.size(); ++k) {
+  for (std::size_t k = outline.begin_of(l); k < outline.end_of(l); ++k) {
     const Piece& piece = outline.pieces[k];
     loop.push_back(corner(outline, k));
     piece_of.push_back(k);
@@ -205,8 +243,9 @@ bool check_crossing(const design::Panel& panel, const Outline& outline, double h
                        format_number(crossing->point.y() * 1000, 4));
   };
   auto name = [&](const Piece& p) {
+    if (p.inside_dart >= 0) return fmt::format("dart `{}`", panel.inside_darts[p.inside_dart].name);
     return p.dart >= 0 ? fmt::format("dart `{}`", panel.darts[p.dart].name)
-                       : fmt::format("edge `{}`", panel.edges[p.edge].name);
+                       : fmt::format("edge `{}`", design::edge_of(panel, {-1, p.edge, 0, 0, p.on}).name);
   };
   if (dart >= 0) {
     report(findings, "G0453", panel.darts[dart].origin,
@@ -218,7 +257,8 @@ bool check_crossing(const design::Panel& panel, const Outline& outline, double h
                         Severity::error,
                         fmt::format("the outline of panel `{}` crosses itself at {}: {} and {}", panel.name,
                                     place(), name(a), name(b)),
-                        {{panel.edges[a.edge].origin, ""}, {panel.edges[b.edge].origin, ""}},
+                        {{design::edge_of(panel, {-1, a.edge, 0, 0, a.on}).origin, ""},
+                         {design::edge_of(panel, {-1, b.edge, 0, 0, b.on}).origin, ""}},
                         "an outline may not touch or cross itself: move a point, or flatten a curve"});
   }
   return false;
@@ -268,8 +308,14 @@ std::optional<Outline> cut_outline(const design::Panel& panel, double h, Finding
       outline.area -= whole.bulge(0, whole.length()) + 0.5 * cross(b - a, m.apex - a);
     }
   }
-  if (!check_crossing(panel, outline, h, findings)) return std::nullopt;
-  if (panel.fold_x) find_half(outline, *panel.fold_x);
+  for (const design::Hole& hole : panel.holes) outline.area -= append_hole(panel, hole, outline);
+  for (std::size_t d = 0; d < panel.inside_darts.size(); ++d) {
+    if (!check_lens(panel, panel.inside_darts[d], findings)) return std::nullopt;
+    outline.area -= append_lens(panel.inside_darts[d], static_cast<int>(d), outline);
+  }
+  for (std::size_t l = 0; l < outline.loops.size(); ++l)
+    if (!check_crossing(panel, outline, l, h, findings)) return std::nullopt;
+  if (panel.fold_x && outline.loops.size() == 1) find_half(outline, *panel.fold_x);
   for (Piece& piece : outline.pieces) piece.breaks = {0, piece.length()};
   return outline;
 }

@@ -1,22 +1,24 @@
 #pragma once
-// The outline of a panel after its darts are cut: one closed loop of pieces, walked counter-clockwise.
+// The border of a panel after its darts are cut: closed loops of pieces, each walked with the cloth to the left: the outline
+// counter-clockwise, holes and darts inside clockwise.
 #include <optional>
 #include <vector>
 
 #include "runtime/base/finding.hpp"
-#include "runtime/design/panel.hpp"
+#include "runtime/design/edge_part.hpp"
 
 namespace garment::modeller {
 
 using design::Point2;
 
-/// Part of an edge, or a leg of a dart, walked counter-clockwise round the panel. Positions t on it run from
-/// 0 to length().
+/// Part of an edge, or a leg of a dart. Positions t on it run from 0 to length().
 struct Piece {
   geometry::Curve curve;       ///< the whole edge as drawn, or the leg
-  int edge = -1;               ///< index into Panel::edges; -1 on a leg
-  int dart = -1;               ///< index into Panel::darts; -1 on an edge
-  bool towards_apex = false;   ///< of a leg
+  int edge = -1;               ///< index into Panel::edges or hole_edges; -1 on a leg
+  design::EdgePart::On on = design::EdgePart::On::outline;  ///< whose edge
+  int dart = -1;               ///< index into Panel::darts; -1 elsewhere
+  int inside_dart = -1;        ///< index into Panel::inside_darts; -1 elsewhere
+  bool towards_apex = false;   ///< of a leg of a dart on an edge
   double from = 0, to = 0;     ///< arc lengths on `curve`; from > to where the loop walks the edge backwards
   std::vector<double> breaks;  ///< positions t where a particle must be, ascending; both ends included
 
@@ -31,17 +33,22 @@ struct Piece {
 };
 
 struct Outline {
-  std::vector<Piece> pieces;
-  double area = 0;  ///< exact: edges by Green's theorem, darts cut away, m^2
+  std::vector<Piece> pieces;           ///< loop by loop, the outline first
+  std::vector<std::size_t> loops{0};   ///< where each loop begins in `pieces`
+  double area = 0;  ///< exact: edges by Green's theorem, darts and holes cut away, m^2
   /// On a panel symmetric about its fold: pieces [0, n_half) are the half of larger x from its lower fold
   /// point up, and piece k mirrors piece n - 1 - k. Zero on all other panels.
   std::size_t n_half = 0;
+
+  /// Of loop `l`: its first piece, and the one after its last.
+  std::size_t begin_of(std::size_t l) const { return loops[l]; }
+  std::size_t end_of(std::size_t l) const { return l + 1 < loops.size() ? loops[l + 1] : pieces.size(); }
 };
 
-/// The point where the loop starts piece `k` (the end of piece k - 1).
+/// The point where piece `k` starts (where the one before it in its loop ends).
 Point2 corner(const Outline& outline, std::size_t k);
 
-/// Cuts the darts and orders the loop. `h` is the grid spacing, which sets how finely crossings are looked
+/// Cuts the darts and holes and orders the loops. `h` is the grid spacing, which sets how finely crossings are looked
 /// for. Nothing, with findings at the panel, edge or dart, where the loop is open, crosses itself, has no
 /// area, or a dart does not fit.
 std::optional<Outline> cut_outline(const design::Panel& panel, double h, Findings& findings);

@@ -93,7 +93,11 @@ std::optional<PanelMesh> mesh_panel(const BorderPanel& panel, const GridFrame& f
     report_coarse(panel, "its border holds no three particles", fits, findings);
     return std::nullopt;
   }
-  if (std::optional<Crossing> crossing = find_crossing(border.at)) {
+  for (std::size_t l = 0; l < border.loops.size(); ++l) {
+    const auto begin = border.at.begin() + border.loops[l];
+    const auto end = l + 1 < border.loops.size() ? border.at.begin() + border.loops[l + 1] : border.at.end();
+    const std::optional<Crossing> crossing = find_crossing({begin, end});
+    if (!crossing) continue;
     report_coarse(panel,
                   fmt::format("the straight lines between its border particles cross at ({}, {}) mm",
                               format_number(crossing->point.x() * 1000, 4),
@@ -109,8 +113,13 @@ std::optional<PanelMesh> mesh_panel(const BorderPanel& panel, const GridFrame& f
     n_fold = fold.size();
     loop.insert(loop.end(), fold.begin(), fold.end());
   }
+  std::vector<int> next = border.next;
+  if (border.half > 0) {
+    next.resize(loop.size());
+    for (std::size_t k = 0; k < loop.size(); ++k) next[k] = static_cast<int>((k + 1) % loop.size());
+  }
   LoopMesh mesh;
-  if (loop.size() >= 3) mesh = mesh_loop(loop, frame.hp, frame.hq);
+  if (loop.size() >= 3) mesh = mesh_loop(loop, next, frame.hp, frame.hq);
   if (!mesh.ok) {
     report_coarse(panel, "its border runs too close to itself", 0.5 * panel.h, findings);
     return std::nullopt;

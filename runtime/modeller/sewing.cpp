@@ -25,13 +25,15 @@ class Merger {
   std::vector<Index> parent_;
 };
 
-/// Vertex k of a stretch, walked forward or backward.
+/// Vertex k of a stretch, walked forward or backward. Its end may be the first vertex of its loop.
 struct Walk {
-  const Stretch* stretch;
-  int first, count, n_border;
+  int first, count, loop_begin, loop_end;
   bool forward;
   Index base;
-  Index operator[](int k) const { return base + (first + (forward ? k : count - k)) % n_border; }
+  Index operator[](int k) const {
+    const int v = first + (forward ? k : count - k);
+    return base + (v < loop_end ? v : loop_begin);
+  }
 };
 
 }  // namespace
@@ -41,10 +43,12 @@ std::vector<Index> sew(const std::vector<Matching>& matchings, const Matched& ma
   Merger merger(n_vertices);
   auto walk = [&](int s, bool forward) {
     const Stretch& stretch = matched.stretches[s];
-    return Walk{&stretch,
-                borders.stretch_first[s],
+    const Border& border = borders.panels[stretch.panel];
+    const auto loop = static_cast<std::size_t>(borders.stretch_loop[s]);
+    return Walk{borders.stretch_first[s],
                 borders.stretch_count[s],
-                static_cast<int>(borders.panels[stretch.panel].at.size()),
+                border.loops[loop],
+                loop + 1 < border.loops.size() ? border.loops[loop + 1] : static_cast<int>(border.at.size()),
                 forward,
                 first_vertex[stretch.panel]};
   };

@@ -42,10 +42,7 @@ class Unmodelled {
 
 void find_in_panels(const design::Garment& garment, Unmodelled& out) {
   for (const design::Panel& panel : garment.panels) {
-    out.say_all("hole", panel.holes);
     out.say_all("slit", panel.slits);
-    out.say_all("dart", panel.inside_darts);
-    out.say_all("dart", panel.leg_darts);
     for (const design::Pleat& pleat : panel.pleats)
       out.say((pleat.kind == design::Pleat::Kind::tuck ? "tuck `" : "pleat `") + Unmodelled::plain(pleat.name) + "`", pleat.origin);
   }
@@ -55,15 +52,14 @@ void find_in_seams(const design::Garment& garment, Unmodelled& out) {
   for (const design::Seam& seam : garment.seams)
     for (const design::SeamSide& side : seam.sides)
       for (const design::EdgePart& part : side.parts)
-        if (part.on != design::EdgePart::On::outline)
-          return out.say("a seam along a line or hole inside a panel", side.origin);
+        if (part.on == design::EdgePart::On::line) return out.say("a seam along a line inside a panel", side.origin);
 }
 
 void find_in_attachments(const design::Garment& garment, Unmodelled& out) {
   for (const design::Attachment& attachment : garment.attachments)
     for (const design::EdgePart& part : attachment.parts)
-      if (part.on != design::EdgePart::On::outline)
-        return out.say("an attachment of a line or hole inside a panel", attachment.origin);
+      if (part.on == design::EdgePart::On::line)
+        return out.say("an attachment of a line inside a panel", attachment.origin);
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ void find_unmodelled_scene(const design::Garment& garment,
   for (const design::Clamp& clamp : scene.clamps) {
     bool inside = false;
     for (const design::EdgePart& part : clamp.parts)
-      inside = inside || part.on != design::EdgePart::On::outline;
+      inside = inside || part.on == design::EdgePart::On::line;
     if (inside) say("clamp `" + clamp.name + "` along a line inside a panel", clamp.origin);
   }
   for (const design::Force& force : scene.forces) say("force `" + force.name + "`", force.origin);

@@ -9,6 +9,7 @@
 
 using namespace garment;
 using Eigen::Vector2d;
+using design::Point2;
 
 namespace {
 
@@ -114,6 +115,87 @@ TEST_CASE("the point of a dart may lie anywhere between the grid lines") {
       CHECK(q.least_angle > 14);
       CHECK(q.shortest > 0.0025);
     }
+  }
+}
+
+TEST_CASE("200 outlines with holes, drawn either way round, give sound meshes of exact mass") {
+  for (int seed = 1; seed <= 200; ++seed) {
+    const double h = 0.012 + 0.003 * (seed * 7 % 10);
+    test::Random random(static_cast<std::uint64_t>(seed) + 1000);
+    design::Panel panel = test::blob(seed, h);
+    double exact = 0;
+    for (const design::Edge& e : panel.edges) exact += e.curve.area_term();
+    // Two round holes near the middle of the blob, each of two arcs: r at least a spacing, as far apart.
+    const int n_holes = 1 + seed % 2;
+    const double radius = std::min(0.03, 0.02 + 0.5 * h * random());
+    for (int k = 0; k < n_holes; ++k) {
+      const Point2 c = Point2(0.05, -0.1) + (n_holes == 1 ? Point2(0, 0) : Point2((k == 0 ? -1 : 1) * (radius + 0.75 * h), 0));
+      const Point2 a = c - Point2(radius, 0), b = c + Point2(radius, 0);
+      const double sagitta = random() < 0.5 ? radius : -radius;
+      panel.holes.push_back({k == 0 ? "first" : "second", {}, 2 * k, 2});
+      panel.hole_edges.push_back(test::edge(k == 0 ? "a" : "c", a, b, geometry::Arc{sagitta}));
+      panel.hole_edges.push_back(test::edge(k == 0 ? "b" : "d", b, a, geometry::Arc{sagitta}));
+      exact -= 3.14159265358979 * radius * radius;
+    }
+    design::Garment g = test::single(panel);
+    INFO("seed " << seed << " h " << h << " radius " << radius);
+    modeller::ModelResult result = modeller::build_model(g, {});
+    REQUIRE(result.model);
+    const model::Model& m = *result.model;
+    const Quality q = quality_of(m, g.panels[0]);
+    REQUIRE_FALSE(q.turned_over);
+    REQUIRE(q.least_angle > 13);
+    REQUIRE(q.shortest > h / 4);
+    REQUIRE(q.euler == 1 - n_holes);
+    REQUIRE(q.used.size() == m.n_vertices());
+    double mass = 0;
+    for (double x : m.mass) mass += x;
+    CHECK(m.panels[0].area == Approx(exact).epsilon(1e-9));
+    CHECK(mass == Approx(0.2 * exact).epsilon(1e-9));
+    for (const auto& t : m.triangle) {
+      const Vector2d middle = (m.vertex_uv[t[0]] + m.vertex_uv[t[1]] + m.vertex_uv[t[2]]) / 3;
+      for (int k = 0; k < n_holes; ++k)
+        REQUIRE((middle - 0.5 * (panel.hole_edges[2 * k].curve.start() + panel.hole_edges[2 * k].curve.end())).norm() > 0.85 * radius);
+    }
+  }
+}
+
+TEST_CASE("a dart inside and one between drawn legs close: one seam each, mass and area exact, one sheet") {
+  design::Garment g = test::single(test::rectangle("sheet", 0.3, 0.4, 0.01));
+  design::Panel& p = g.panels[0];
+  p.edges = {test::edge("bottom", {0, 0}, {0.3, 0}),        test::edge("right", {0.3, 0}, {0.3, 0.4}),
+             test::edge("top_a", {0.3, 0.4}, {0.18, 0.4}),  test::edge("leg_a", {0.18, 0.4}, {0.15, 0.28}),
+             test::edge("leg_b", {0.15, 0.28}, {0.12, 0.4}), test::edge("top_b", {0.12, 0.4}, {0, 0.4}),
+             test::edge("left", {0, 0.4}, {0, 0})};
+  p.leg_darts = {{"drawn", {}, "leg_a", "leg_b"}};
+  p.inside_darts = {{"eye", {}, {0.14, 0.04}, {0.16, 0.24}, 0.02, 0.4}};
+  for (const bool turned : {false, true}) {  // the legs may be named either way round
+    if (turned) std::swap(p.leg_darts[0].leg_a, p.leg_darts[0].leg_b);
+    modeller::ModelResult r = modeller::build_model(g, {});
+    REQUIRE(r.model);
+    const model::Model& m = *r.model;
+    const double length = std::hypot(0.02, 0.2), exact = 0.12 - 0.5 * 0.06 * 0.12 - 0.5 * 0.02 * length;
+    CHECK(m.panels[0].area == Approx(exact).epsilon(1e-12));
+    double mass = 0;
+    for (double x : m.mass) mass += x;
+    CHECK(mass == Approx(0.2 * exact).epsilon(1e-12));
+    REQUIRE(m.seams.size() == 2);
+    CHECK(m.seams[0].name == "sheet.drawn");
+    CHECK(m.seams[0].length == Approx(std::hypot(0.03, 0.12)).epsilon(1e-12));
+    CHECK(m.seams[1].name == "sheet.eye");
+    CHECK(m.seams[1].length == Approx(std::hypot(0.4 * length, 0.01) + std::hypot(0.6 * length, 0.01)).epsilon(1e-12));
+    // Of each seam all particles but its tips carry two vertices; the rest of the sheet carries one each.
+    const std::size_t doubled = m.seams[0].particles.size() - 1 + m.seams[1].particles.size() - 2;
+    CHECK(m.n_vertices() - m.n_particles() == doubled);
+    // The sheet of particles is a disc again.
+    std::set<std::array<int, 2>> sides;
+    for (const auto& t : m.triangle)
+      for (int k = 0; k < 3; ++k) {
+        const int a = m.vertex_particle[t[k]], b = m.vertex_particle[t[(k + 1) % 3]];
+        REQUIRE(a != b);
+        sides.insert({std::min(a, b), std::max(a, b)});
+      }
+    CHECK(static_cast<int>(m.n_particles()) - static_cast<int>(sides.size()) + static_cast<int>(m.n_triangles()) == 1);
   }
 }
 
