@@ -133,7 +133,7 @@ ExitCode import_pattern(const ImportOptions& options, Host& host, Terminal& term
   pattern_options.title = stem_of(options.file);
   pattern_options.fabric = io::import_fabric();
   io::PatternResult pattern = io::read_pattern(*text.value, pattern_options);
-  std::vector<grammar::Span> origins{grammar::Span{}};
+  interpreter::Origins origins;
   show(interpreter::to_diagnostics(pattern.findings, origins), sources, terminal);
   if (!pattern.garment) return kDiagnostics;
   for (const std::string& note : pattern.notes) terminal.note("note: " + note);
@@ -158,16 +158,6 @@ ExitCode import_pattern(const ImportOptions& options, Host& host, Terminal& term
   }
   terminal.note(fmt::format("{}: {}, {}", out, plural(pattern.garment->panels.size(), "panel"),
                             plural(pattern.garment->seams.size(), "seam")));
-  return kOk;
-}
-
-ExitCode explain(const std::string& code, Terminal& terminal) {
-  const grammar::CodeInfo* info = grammar::find_code(code);
-  if (!info) {
-    terminal.error(fmt::format("`{}` is no diagnostic code; they look like G0312", code));
-    return kUsage;
-  }
-  terminal.result(fmt::format("{}: {}\n\n{}", info->code, info->title, info->explanation));
   return kOk;
 }
 

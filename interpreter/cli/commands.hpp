@@ -28,9 +28,7 @@ struct ImportOptions {
 };
 ExitCode import_pattern(const ImportOptions& options, Host& host, Terminal& terminal);
 
-/// Long text of a diagnostic code.
 /// The table of limits.
 ExitCode show_limits(Terminal& terminal);
-ExitCode explain(const std::string& code, Terminal& terminal);
 
 }  // namespace garment::cli

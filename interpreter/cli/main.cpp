@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "interpreter/cli/commands.hpp"
+#include "interpreter/cli/explain.hpp"
 #include "interpreter/cli/golden.hpp"
 #include "interpreter/cli/lsp.hpp"
 #include "interpreter/cli/reference_page.hpp"
@@ -47,8 +48,9 @@ struct Options {
   GoldenOptions golden;
   bool whole_check = false;
   garment::repl::ReplOptions repl;
-  std::string parse_file, code;
-  bool stdio = true, textmate = false;
+  std::string parse_file;
+  std::vector<std::string> topics;
+  bool stdio = true, textmate = false, list_codes = false;
 };
 
 void add_common(CLI::App* command, Options& o) {
@@ -136,8 +138,10 @@ int main(int argc, char** argv) {
   repl_command->add_option("--threads", o.threads, "threads to use (results do not depend on it)")->check(CLI::Range(1, 256));
   repl_command->footer("With input that is no terminal the entries are echoed, and the exit code is that of the first entry that went\n"
                        "wrong: 1 refused, 4 the simulation failed or a file was not written, 5 an expect failed.");
-  auto* explain_command = app.add_subcommand("explain", "the long text of a diagnostic code");
-  explain_command->add_option("code", o.code, "for example G0312")->required();
+  auto* explain_command = app.add_subcommand("explain", "the long text of diagnostic codes; what words of the language mean");
+  auto* topics_option =
+      explain_command->add_option("topics", o.topics, "codes as G0312, or keywords, clauses and functions as seam, ease, length");
+  explain_command->add_flag("--list", o.list_codes, "name all codes")->excludes(topics_option);
   add_common(explain_command, o);
   auto* lsp_command = app.add_subcommand("lsp", "serve an editor: Language Server Protocol 3.17 on standard input and output");
   lsp_command->add_option("--library", o.project.stdlib_dir, "folder of the standard library");
@@ -171,5 +175,10 @@ int main(int argc, char** argv) {
   if (*repl_command) return garment::repl::run_repl(o.repl, host);
   if (*test_command) return run_goldens(o.golden, host, terminal);
   if (*lsp_command) return serve_editor(o.project.stdlib_dir, host);
-  return explain(o.code, terminal);
+  if (o.list_codes) return list_codes(terminal);
+  if (o.topics.empty()) {
+    terminal.error("name a code, as in `garment explain G0312`, or --list them all");
+    return kUsage;
+  }
+  return explain(o.topics, terminal);
 }
