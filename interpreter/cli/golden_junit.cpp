@@ -4,20 +4,29 @@
 
 #include <filesystem>
 
+#include "grammar/text.hpp"
+
 namespace garment::cli {
 namespace {
 
-/// Text for an attribute or element: markup escaped, characters that XML 1.0 does not have replaced.
-std::string escaped(const std::string& text) {
+/// XML 1.0 has neither most control characters nor the last two of the basic plane.
+bool is_xml(const grammar::Character& c) {
+  return c.valid && (c.code >= 32 || c.code == '\t' || c.code == '\n') && c.code != 0xFFFE && c.code != 0xFFFF;
+}
+
+/// Text for an attribute or element: markup escaped, what XML does not have replaced.
+std::string escaped(std::string_view text) {
   std::string out;
-  for (char c : text) {
-    if (c == '&') out += "&amp;";
-    else if (c == '<') out += "&lt;";
-    else if (c == '>') out += "&gt;";
-    else if (c == '"') out += "&quot;";
-    else if (c == '\n') out += "&#10;";
-    else if (static_cast<unsigned char>(c) < 32 && c != '\t') out += "\xEF\xBF\xBD";
-    else out += c;
+  for (std::size_t at = 0; at < text.size();) {
+    const grammar::Character c = grammar::decode_utf8(text, at);
+    if (c.code == '&') out += "&amp;";
+    else if (c.code == '<') out += "&lt;";
+    else if (c.code == '>') out += "&gt;";
+    else if (c.code == '"') out += "&quot;";
+    else if (c.code == '\n') out += "&#10;";
+    else if (!is_xml(c)) out += "\xEF\xBF\xBD";
+    else out += text.substr(at, c.length);
+    at += c.length;
   }
   return out;
 }

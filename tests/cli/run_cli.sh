@@ -76,6 +76,25 @@ complains "is no diagnostic code"
 run 0 explain G0501
 says "G0501: the sides of a seam do not have the same length"
 says "What to do:"
+run 0 explain g501 G0505
+says "G0501: the sides of a seam"
+says "G0505: an edge left unsewn"
+run 0 explain seam length
+says "seam NAME: SIDE to SIDE"
+says "length("
+run 0 explain gather
+says "clause of"
+run 2 explain G0502
+complains "did you mean \`G05"
+run 2 explain seem G0501
+complains "did you mean \`seam\`"
+says "G0501: the sides of a seam"
+run 2 explain
+complains "--list"
+run 0 explain --list
+says "G0312  something is missing in a statement"
+run 0 explain G0501 --json
+is_json out.txt
 
 # ---- reference
 run 0 reference
@@ -546,10 +565,21 @@ ok
 grep -q '<testsuites name="garment test" tests="3" failures="1" errors="0">' out.xml || fail "out.xml does not count"
 ok
 grep -q '&gt; 90%' out.xml || fail "out.xml is not escaped"
+# The report is what build servers read, whatever bytes the scripts and their names hold.
+mkdir -p 'mine/check/a "b" <c>'
+printf 'garment 1 "caf\xe9"\n' >'mine/check/a "b" <c>/latin & one.garment'
+printf '#! ok\nlet w = "\xef\xbf\xbe \x01"\n' >mine/check/controls.garment
+run 1 test mine --junit out.xml
 if command -v python3 >/dev/null; then
   ok
-  python3 -c 'import sys, xml.dom.minidom; xml.dom.minidom.parse(sys.argv[1])' out.xml || fail "out.xml is not XML"
+  python3 "$here/junit_rules.py" out.xml >rules.txt 2>&1 || fail "out.xml breaks the rules of JUnit reports: $(cat rules.txt)"
+  run 0 test "$here/../golden/check/lexis" --junit out.xml
+  ok
+  python3 "$here/junit_rules.py" out.xml >rules.txt 2>&1 || fail "out.xml breaks the rules of JUnit reports: $(cat rules.txt)"
+else
+  echo "SKIPPED: python3 is not here; JUnit reports were not held against their rules"
 fi
+rm -r mine/check
 run 3 test mine --junit plain_file/out.xml
 complains "error[G0902]"
 run 3 test mine --filter nothing_like_it
