@@ -1,7 +1,8 @@
-// Mutates the examples and the standard library by one token at a time and looks at the answers: a valid
-// model, or coded errors in place, one for each mistake.
-//   mutations SOURCE_DIR [COUNT] [--seed N] [--list] [--only FILE]
-// --list prints each mutant that gives more than one error. Exit code 1 when an answer is not as it must be.
+// Mutates the examples, the standard library, the scripts of the documents and the goldens that are right by one token
+// at a time and looks at the answers: a valid model, or coded errors in place, one for each mistake.
+//   mutations SOURCE_DIR [COUNT] [--seed N] [--list] [--far] [--only FILE]
+// --list prints each mutant that gives more than one error, --far each whose only error stands in another line than the
+// mutation. Exit code 1 when an answer is not as it must be.
 #include <fmt/format.h>
 #include <sys/time.h>
 #include <unistd.h>
@@ -93,6 +94,8 @@ struct Answer {
   grammar::Diagnostics diagnostics;
   std::string text;
   int errors = 0;
+  std::uint32_t line = 0;  ///< of the first error, where it stands in the script
+  bool modelled = false;
 };
 
 struct Runner {
@@ -113,6 +116,7 @@ struct Runner {
     Answer answer{result.diagnostics, "", 0};
     if (result.ok()) {
       Findings findings = modeller::find_unmodelled(result.garment, Severity::warning);
+      answer.modelled = findings.empty();
       if (findings.empty()) findings = modeller::build_model(result.garment, result.bodies).findings;
       for (grammar::Diagnostic& d : interpreter::to_diagnostics(findings, result.origins))
         answer.diagnostics.push_back(std::move(d));
@@ -120,6 +124,8 @@ struct Runner {
     for (const grammar::Diagnostic& d : answer.diagnostics) {
       if (d.severity != Severity::error) continue;
       ++answer.errors;
+      if (answer.errors == 1 && !d.labels.empty() && d.labels[0].span.source == id)
+        answer.line = sources.place(id, d.labels[0].span.begin).line;
       answer.text += grammar::render(d, sources, false);
     }
     return answer;
@@ -154,30 +160,80 @@ std::vector<std::string> words_of_the_language() {
 }
 
 struct Subject {
-  std::string name, text, path;
-  bool library = false;
+  std::string name, text, folder;
+  std::string library;  ///< path of the library that `text` replaces; empty: `text` is the script itself
+  std::string script;   ///< that uses the library
   std::vector<Token> tokens;
 };
 
-std::vector<Subject> subjects(const std::string& root, const std::string& only) {
-  std::vector<Subject> found;
-  for (const char* folder : {"examples", "stdlib"}) {
-    std::vector<fs::path> paths;
-    for (const auto& entry : fs::directory_iterator(fs::path(root) / folder))
-      if (entry.path().extension() == ".garment") paths.push_back(entry.path());
-    std::sort(paths.begin(), paths.end());
-    for (const fs::path& path : paths) {
-      if (!only.empty() && path.string().find(only) == std::string::npos) continue;
-      Subject subject{path.filename().string(),
-                      *system_host().read_file(path.string(), 4 << 20).value,
-                      path.lexically_normal().string(),
-                      std::string_view(folder) == "stdlib",
-                      {}};
-      subject.tokens = tokens_of(subject.text);
-      found.push_back(std::move(subject));
+std::vector<fs::path> files_below(const fs::path& folder, const char* extension = ".garment") {
+  std::vector<fs::path> paths;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.path().extension() == extension) paths.push_back(entry.path());
+  std::sort(paths.begin(), paths.end());
+  return paths;
+}
+
+std::string text_of(const fs::path& path) { return *system_host().read_file(path.string(), 4 << 20).value; }
+
+class Subjects {
+ public:
+  Subjects(const std::string& root, const std::string& only) : root_(root), only_(only) {
+    for (const fs::path& path : files_below(root_ / "examples")) add(path.filename().string(), text_of(path), "examples");
+    for (const fs::path& path : files_below(root_ / "stdlib")) add_library(path);
+    for (const fs::path& path : files_below(root_ / "docs", ".md")) add_document(path);
+    long_ = found_.size();
+    for (const fs::path& path : files_below(root_ / "tests/golden/check")) {
+      const std::string text = text_of(path);
+      if (text.starts_with("#! ok")) add(path.lexically_relative(root_ / "tests/golden").string(), text, path.parent_path());
     }
   }
-  return found;
+
+  std::size_t size() const { return found_.size(); }
+  /// Three of four mutants are of whole garments; the goldens are many and short.
+  const Subject& of(std::size_t k) const {
+    const std::size_t n_short = found_.size() - long_;
+    if (long_ == 0 || (k % 4 == 3 && n_short > 0)) return found_[long_ + k / 4 % n_short];
+    return found_[(k - k / 4) % long_];
+  }
+
+ private:
+  void add(const std::string& name, const std::string& text, const fs::path& folder, const std::string& library = "",
+           const std::string& script = "") {
+    if (!only_.empty() && name.find(only_) == std::string::npos) return;
+    found_.push_back({name, text, (root_ / folder).string(), library, script, tokens_of(text)});
+  }
+
+  /// With the first example that uses it.
+  void add_library(const fs::path& path) {
+    const std::string name = path.stem().string();
+    for (const fs::path& example : files_below(root_ / "examples")) {
+      const std::string text = text_of(example);
+      if (text.find(name + '.') == std::string::npos) continue;
+      return add(path.filename().string(), text_of(path), "examples", path.lexically_normal().string(), text);
+    }
+  }
+
+  /// Its scripts that are whole: those that begin with a `garment` line.
+  void add_document(const fs::path& path) {
+    const std::string text = text_of(path);
+    constexpr std::string_view kBegin = "```garment\n", kEnd = "```";
+    int n = 0;
+    for (std::size_t at = text.find(kBegin); at != std::string::npos; at = text.find(kBegin, at)) {
+      at += kBegin.size();
+      const std::string script = text.substr(at, text.find(kEnd, at) - at);
+      if (script.starts_with("garment ")) add(path.filename().string() + ' ' + std::to_string(++n), script, "docs");
+    }
+  }
+
+  fs::path root_;
+  std::string only_;
+  std::vector<Subject> found_;
+  std::size_t long_ = 0;  ///< the first so many are no goldens
+};
+
+std::uint32_t line_of(const std::string& text, std::size_t at) {
+  return 1 + static_cast<std::uint32_t>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
 }
 
 }  // namespace
@@ -185,11 +241,13 @@ std::vector<Subject> subjects(const std::string& root, const std::string& only) 
 int main(int argc, char** argv) {
   std::string root, only;
   std::size_t count = 400, seed = 1;
-  bool list = false;
+  bool list = false, list_far = false;
   for (int k = 1; k < argc; ++k) {
     const std::string argument = argv[k];
     if (argument == "--list")
       list = true;
+    else if (argument == "--far")
+      list_far = true;
     else if (argument == "--seed" && k + 1 < argc)
       seed = std::stoul(argv[++k]);
     else if (argument == "--only" && k + 1 < argc)
@@ -202,22 +260,20 @@ int main(int argc, char** argv) {
   for (int signal : {SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGPROF}) std::signal(signal, tell_and_die);
   Runner runner;
   runner.stdlib = (fs::path(root) / "stdlib").string();
-  const std::vector<Subject> all = subjects(root, only);
+  const Subjects all(root, only);
   const std::vector<std::string> words = words_of_the_language();
-  const std::string skirt =
-      *system_host().read_file((fs::path(root) / "examples/skirt.garment").string(), 1 << 20).value;
-  std::size_t bad = 0, several = 0, valid = 0;
+  std::size_t bad = 0, several = 0, valid = 0, modelled = 0, far = 0;
   std::map<std::string, int> pairs;
   for (std::size_t k = 0; k < count; ++k) {
-    const Subject& subject = all[k % all.size()];
+    const Subject& subject = all.of(k);
     Dice dice(seed * 1000003 + k);
     const Mutant mutant = mutate(subject.text, subject.tokens, words, dice);
     current = fmt::format("{} {}: {}\n", subject.name, k, mutant.what);
-    runner.host.replaced_path = subject.library ? subject.path : "";
+    const bool in_library = !subject.library.empty();
+    runner.host.replaced_path = subject.library;
     runner.host.replaced_text = mutant.text;
     limit_time(kMaxSeconds);
-    const Answer answer =
-        runner.run(subject.library ? skirt : mutant.text, fs::path(subject.path).parent_path().string());
+    const Answer answer = runner.run(in_library ? subject.script : mutant.text, subject.folder);
     limit_time(0);
     const std::string wrong = judge(answer);
     if (!wrong.empty()) {
@@ -225,6 +281,11 @@ int main(int argc, char** argv) {
       fmt::print("BAD ({}) {}{}\n", wrong, current, answer.text);
     }
     if (answer.errors == 0) ++valid;
+    if (answer.modelled) ++modelled;
+    if (answer.errors == 1 && !in_library && answer.line != line_of(mutant.text, mutant.at)) {
+      ++far;
+      if (list_far) fmt::print("FAR (line {}) {}{}\n", line_of(mutant.text, mutant.at), current, answer.text);
+    }
     if (answer.errors > 1) {
       ++several;
       std::string codes;
@@ -235,7 +296,7 @@ int main(int argc, char** argv) {
     }
   }
   for (const auto& [codes, n] : pairs) fmt::print("{:5} x {}\n", n, codes);
-  fmt::print("{} mutants: {} valid, {} with one error, {} with more, {} with a bad answer\n", count, valid,
-             count - valid - several, several, bad);
+  fmt::print("{} mutants of {} scripts: {} valid ({} modelled), {} with one error ({} in another line), {} with more, {} with a bad answer\n",
+             count, all.size(), valid, modelled, count - valid - several, far, several, bad);
   return bad == 0 ? 0 : 1;
 }
