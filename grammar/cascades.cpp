@@ -28,6 +28,15 @@ bool ParseState::follows_from_earlier(const SyntaxError& error) const {
     return !old.labels.empty() && (old.labels[0].span.begin == place);
   };
   if (std::any_of(diagnostics_.begin(), diagnostics_.end(), stands_at)) return true;
+  // One line, one slip: what follows a mistake is read on as well as may be, up to a `;`.
+  const auto in_line = [&](const Diagnostic& old) {
+    if (old.labels.empty() || old.labels[0].span.begin > place || line_of(old.labels[0].span.begin) != line_of(place)) return false;
+    return text_.substr(old.labels[0].span.begin, place - old.labels[0].span.begin).find(';') == std::string_view::npos;
+  };
+  if (std::any_of(diagnostics_.begin(), diagnostics_.end(), in_line)) return true;
+  // A block whose { is missing has its } all the same.
+  const auto lacks_brace = [](const Diagnostic& old) { return old.code == "G0212"; };
+  if (d.code == "G0205" && at(place) == '}' && std::any_of(diagnostics_.begin(), diagnostics_.end(), lacks_brace)) return true;
   if (d.code == "G0205") return fresh_;
   if ((d.code == "G0208" || d.code == "G0209") && statements_.empty() && indent_of(place) > 0) return fresh_;
   if (d.code == "G0202") return !is_word_start(at(place)) && only_blanks_since_broken(place);

@@ -38,5 +38,7 @@ struct CodeInfo {
 };
 const std::vector<CodeInfo>& code_table();
 const CodeInfo* find_code(std::string_view code);
+/// The first sentence of what the explanation says is to be done, "keep one of the two"; empty for unknown codes.
+std::string remedy_of(std::string_view code);
 
 }  // namespace garment::grammar

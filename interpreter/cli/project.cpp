@@ -45,7 +45,7 @@ ExitCode load_pattern(Project& project, const ProjectOptions& options, const std
   pattern_options.fabric = io::import_fabric();
   io::PatternResult pattern = io::read_pattern(text, pattern_options);
   interpreter::Interpretation& result = project.result;
-  result.origins = {grammar::Span{}};
+  result.origins = interpreter::Origins{};
   result.diagnostics = interpreter::to_diagnostics(pattern.findings, result.origins);
   if (pattern.garment && options.body.empty())
     result.diagnostics.push_back(plain_error("G1002", "a specification needs a body to be worn by",

@@ -5,6 +5,7 @@
 
 #include "interpreter/language/clauses.hpp"
 #include "interpreter/language/files.hpp"
+#include "interpreter/language/word_lists.hpp"
 
 namespace garment::interpreter {
 namespace {
@@ -203,7 +204,7 @@ void run_drape(Program& program, const Item& item) {
       act.settle = simulator::Settle::exact;
     else if (name != "equilibrium")
       fail(program, Message("G0313", "`settle` takes preview, equilibrium or exact", word.span)
-                        .help(did_you_mean(name, words)));
+                        .help(meant_or_listed(name, words, "it is one of")));
     if (!act.until_rest)
       fail(program, Message("G0313", "`settle` goes with `until rest`", settle->clause->span));
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "interpreter/language/clauses.hpp"
+#include "interpreter/language/word_lists.hpp"
 
 namespace garment::interpreter {
 namespace {
@@ -17,12 +18,6 @@ std::vector<std::string> part_names(const body::Body& body) {
   std::vector<std::string> names;
   for (const auto& [name, part] : body.parts) names.push_back(name);
   return names;
-}
-
-std::string listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
 }
 
 std::string help_for(const std::string& name, const std::vector<std::string>& names,

@@ -8,6 +8,7 @@
 #include "interpreter/language/evaluate.hpp"
 #include "interpreter/language/outline.hpp"
 #include "interpreter/language/regions.hpp"
+#include "interpreter/language/word_lists.hpp"
 
 namespace garment::interpreter {
 namespace {
@@ -39,7 +40,7 @@ class ButtonReader {
 
   design::Button read() {
     for (const Expr& operand : statement_.operands)
-      fail(program_, Message("G0313", "this means nothing before `on`", operand.span));
+      fail(program_, Message("G0313", "`" + std::string(program_.sources.text(operand.span)) + "` means nothing before `on`", operand.span));
     button_.name = declaration_.name;
     button_.origin = program_.origin(statement_.span);
     for (std::size_t k = 0; k < statement_.clauses.size(); ++k) take(k);
@@ -141,7 +142,7 @@ class ButtonReader {
       button_.kind = Kind::snap;
     else
       fail(program_, Message("G0313", "`kind` takes sew_through, hook or snap", expr.span)
-                         .help(did_you_mean(word, {"sew_through", "hook", "snap"})));
+                         .help(meant_or_listed(word, {"sew_through", "hook", "snap"}, "it is one of")));
   }
 
   void check_room(int panel, const Point2& p, Span span, bool hole) {

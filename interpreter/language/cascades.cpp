@@ -22,7 +22,12 @@ bool hides_statements(const Diagnostic& d) {
   return is_syntax(d) && std::find(std::begin(kInside), std::end(kInside), d.code) == std::end(kInside);
 }
 
-bool tells_a_name(const Diagnostic& d) { return d.code == "G0301" || d.code == "G0311"; }
+bool tells_a_name(const Diagnostic& d) {
+  return d.code == "G0301" || d.code == "G0311" || d.code == "G1220" || d.code == "G1224";
+}
+
+/// A statement that is not put together as it must be, though its syntax is right.
+bool tells_a_form(const Diagnostic& d) { return d.code == "G0312" || d.code == "G0313"; }
 
 /// Line and source of the primary place; line 0 where there is none.
 std::pair<grammar::SourceId, std::uint32_t> line_of(const Diagnostic& d, const Sources& sources) {
@@ -68,13 +73,32 @@ bool line_holds(const Diagnostic& d, std::string_view word, const Sources& sourc
   return false;
 }
 
+/// The name that `d` does not know stands in the lines at a mistake of syntax, whole or as part of a longer word: what
+/// should have declared it was misread. A library with such a mistake may have lost anything.
+bool lost_in_syntax(const Diagnostic& d, const Diagnostic& syntax, const Sources& sources) {
+  if (syntax.labels.empty() || !(is_syntax(syntax) || tells_a_form(syntax))) return false;
+  if (is_syntax(syntax) && !d.labels.empty() && syntax.labels[0].span.source > d.labels[0].span.source) return true;
+  const grammar::Span& span = syntax.labels[0].span;
+  const std::string& text = sources[span.source].text;
+  constexpr std::size_t kFar = 500;
+  std::size_t begin = std::min<std::size_t>(span.begin, text.size()), end = begin;
+  const auto goes_on = [&](std::size_t at, int& breaks) { return text[at] != '\n' || --breaks > 0; };
+  for (int breaks = 2; begin > 0 && span.begin - begin < kFar && goes_on(begin - 1, breaks);) --begin;
+  for (int breaks = 2; end < text.size() && end - span.begin < kFar && goes_on(end, breaks);) ++end;
+  const std::string_view lines = std::string_view(text).substr(begin, end - begin);
+  return std::any_of(d.labels.begin(), d.labels.end(), [&](const grammar::Label& label) {
+    const std::string_view name = sources.text(label.span);
+    return !name.empty() && lines.find(name) != std::string_view::npos;
+  });
+}
+
 bool same_place(const Diagnostic& a, const Diagnostic& b) {
   return !a.labels.empty() && !b.labels.empty() && a.labels[0].span == b.labels[0].span;
 }
 
 /// `later` says what `earlier`, above it in the text, has said.
 bool repeats(const Diagnostic& earlier, const Diagnostic& later) {
-  if (!is_error(earlier) || !is_error(later)) return false;
+  if (!is_error(earlier) || !is_error(later) || later.code == "G0218") return false;  // that reading stopped is news
   return same_place(earlier, later) ||
          (tells_a_name(later) && earlier.code == later.code && earlier.message == later.message);
 }
@@ -85,11 +109,35 @@ bool lost_its_declaration(const Diagnostic& d, const Diagnostics& all, const Sou
   if (!is_error(d) || is_syntax(d) || d.labels.empty() || d.code == "G0302") return false;
   return std::any_of(all.begin(), all.end(), [&](const Diagnostic& other) {
     if (!is_error(other) || other.labels.empty() || tells_a_name(other)) return false;
+    if (tells_a_name(d) && lost_in_syntax(d, other, sources)) return true;
     if (other.code == "G0302") return line_holds(d, sources.text(other.labels[0].span), sources);
     return tells_a_name(d) && std::any_of(d.labels.begin(), d.labels.end(), [&](const grammar::Label& label) {
              return line_holds(other, sources.text(label.span), sources);
            });
   });
+}
+
+/// A value that cannot be tried because of a mistake that is told at its own place.
+bool tells_of_another(const Diagnostic& d, const Diagnostics& all) {
+  return d.code == "G1205" && std::any_of(all.begin(), all.end(), [&](const Diagnostic& other) {
+           return is_error(other) && other.code != d.code && d.message.ends_with(other.message);
+         });
+}
+
+/// Assertions that do not hold have one cause more often than several: the first is the error and shows the others.
+void join_assertions(Diagnostics& diagnostics) {
+  constexpr std::string_view kAssertion = "G0320";
+  const auto first = std::find_if(diagnostics.begin(), diagnostics.end(),
+                                  [&](const Diagnostic& d) { return is_error(d) && d.code == kAssertion; });
+  if (first == diagnostics.end()) return;
+  for (auto other = first + 1; other != diagnostics.end();) {
+    if (other->code != kAssertion) {
+      ++other;
+      continue;
+    }
+    if (!other->labels.empty()) first->labels.push_back({other->labels[0].span, "nor this: " + other->labels[0].text});
+    other = diagnostics.erase(other);
+  }
 }
 
 }  // namespace
@@ -108,9 +156,10 @@ void drop_cascades(Diagnostics& diagnostics, const Sources& sources) {
   for (std::size_t k = 0; k < all.size(); ++k) {
     const bool repeated = std::any_of(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(k),
                                       [&](const Diagnostic& earlier) { return repeats(earlier, all[k]); });
-    if (!follows_syntax(all[k]) && !repeated && !lost_its_declaration(all[k], all, sources))
+    if (!follows_syntax(all[k]) && !repeated && !tells_of_another(all[k], all) && !lost_its_declaration(all[k], all, sources))
       diagnostics.push_back(all[k]);
   }
+  join_assertions(diagnostics);
 }
 
 }  // namespace garment::interpreter

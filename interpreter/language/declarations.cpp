@@ -7,6 +7,7 @@
 #include "interpreter/language/function_table.hpp"
 #include "interpreter/language/libraries.hpp"
 #include "interpreter/language/parts.hpp"
+#include "interpreter/language/word_lists.hpp"
 
 namespace garment::interpreter {
 namespace {
@@ -37,11 +38,13 @@ std::vector<Value> loop_values(Program& program, const Statement& statement, Sco
   const auto* range = value.as<RangeValue>();
   if (range == nullptr || !range->from.dimension.none())
     fail(program, Message("G0306", kind_of(value) + " where `for` takes a range of whole numbers or a list",
-                          expr.span));
+                          expr.span)
+                      .help("as in `for i in 1 .. 6 { ... }`; lengths are `for x in steps(0 cm .. 10 cm, 2 cm) { ... }`"));
   const double from = range->from.value, to = range->to.value;
   if (from != std::floor(from) || std::fabs(from) > 1e9)
     fail(program, Message("G0309", "a loop starts at a whole number, this at " + format_quantity(from, {}),
-                          expr.span));
+                          expr.span)
+                      .help("count whole numbers and compute from them: `for i in 1 .. 6 { ... i / 2 ... }`"));
   if (to - from > static_cast<double>(kMaxStatements))
     fail(program,
          Message("G0327",
@@ -264,7 +267,8 @@ bool is_settable(const Declaration& declaration) {
   const Expr* first = &target;
   while (first->kind == ExprKind::member && !first->children.empty()) first = &first->children[0];
   if (first->kind != ExprKind::name)
-    fail(program, Message("G0311", "this cannot be assigned to", target.span));
+    fail(program, Message("G0311", "`" + std::string(program.sources.text(target.span)) + "` cannot be assigned to", target.span)
+                      .help("what is assigned is a name or a property: `long = 70 cm`, `front.waist_dart.depth = 11 cm`"));
   const std::string name = name_of(program, *first, scope);
   if (find_local(scope, name) != nullptr)
     fail(program, Message("G0311", "a library cannot be changed", target.span)
@@ -308,7 +312,8 @@ void attach_assignment(Program& program, const Item& item) {
                           "`" + declaration.name + "` is a " + declaration.statement->keyword.text +
                               "; only a param can be set as a whole",
                           target.span)
-                      .also(declaration.statement->span, "declared here"));
+                      .also(declaration.statement->span, "declared here")
+                      .help("change it where it is declared, make it a `param`, or assign one of its properties"));
   assign_to(program, item, path.rest, declaration);
   if (path.twin != nullptr) assign_to(program, item, path.rest, *path.twin);
 }
@@ -367,6 +372,24 @@ void settle_declarations(Program& program, Module& module) {
   }
 }
 
+namespace {
+
+/// What of a declared thing can be assigned: its clauses, or of a panel its values and what is drawn in it.
+std::vector<std::string> assignable(const Program& program, const Declaration& declaration, const ConstructRecord* record) {
+  std::vector<std::string> words;
+  if (record == nullptr) return words;
+  const bool is_panel = std::find(record->body_keywords.begin(), record->body_keywords.end(), "grain") != record->body_keywords.end();
+  if (is_panel && declaration.index >= 0) {
+    words = {"resolution", "grain", "label"};
+    for (const auto& [name, span] : program.panels[static_cast<std::size_t>(declaration.index)].spans) words.push_back(name);
+  } else {
+    for (const ClauseRecord& clause : record->clauses) words.emplace_back(clause.word);
+  }
+  return words;
+}
+
+}  // namespace
+
 void check_assignments(Program& program, Module& module) {
   std::vector<Span> told;  // what changes a left and a right thing is wrong once
   for (const Item& item : module.items) {
@@ -379,11 +402,9 @@ void check_assignments(Program& program, Module& module) {
       told.push_back(change.span);
       std::string path = item.declaration->name;
       for (const std::string& word : change.path) path += '.' + word;
-      std::vector<std::string> words;
-      if (record != nullptr)
-        for (const ClauseRecord& clause : record->clauses) words.emplace_back(clause.word);
+      const std::vector<std::string> words = assignable(program, *item.declaration, record);
       report(program, Message("G0311", "there is no `" + path + "` to assign to", change.span)
-                          .help(did_you_mean(change.path.empty() ? "" : change.path[0], words)));
+                          .help(meant_or_listed(change.path.empty() ? "" : change.path[0], words, "what can be assigned is")));
     }
   }
 }

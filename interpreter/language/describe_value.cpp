@@ -3,6 +3,7 @@
 
 #include "interpreter/language/ask.hpp"
 #include "interpreter/language/edges.hpp"
+#include "interpreter/language/word_lists.hpp"
 
 namespace garment::interpreter {
 namespace {
@@ -11,12 +12,6 @@ constexpr int kDigits = 7;
 constexpr double kSameLength = 1e-7;  // m
 
 std::string length_text(double metres) { return format_quantity(metres, kLength, false, kDigits); }
-
-std::string listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
 
 std::string describe_edge(const Program& program, const Value& value, const DrapeMeasures* drape) {
   const EdgeValue& edge = *value.as<EdgeValue>();

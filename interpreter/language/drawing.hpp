@@ -1,7 +1,6 @@
 #pragma once
 // A panel while it is drawn: what of it exists so far is known in its own block by its plain names.
 #include <optional>
-#include <set>
 #include <string>
 
 #include "interpreter/language/recipe.hpp"
@@ -15,7 +14,6 @@ struct Drawing {
   PanelInfo& info;
   design::Panel& panel;
   const Recipe& recipe;
-  std::set<std::string> own_allowance{};  ///< edges whose allowance is stated for them alone
 };
 
 /// The scope of an item's values: below the statement's own, it knows the edges, lines and points drawn so far.

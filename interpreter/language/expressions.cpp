@@ -167,7 +167,8 @@ struct DepthGuard {
     fail(
         program,
         Message("G0309", "index " + format_quantity(q.value, {}) + "; the list has 1 .. " + std::to_string(n),
-                expr.children[1].span));
+                expr.children[1].span)
+            .help("`count(list)` tells how many values a list has, `last(list)` is its last one"));
   return (**list)[static_cast<std::size_t>(q.value) - 1];
 }
 
@@ -178,7 +179,8 @@ struct DepthGuard {
     return Value{eval_truth(program, expr.children[1], scope, "`" + expr.text + "`")};
   }
   if (expr.text == "minus")
-    fail(program, Message("G0315", "regions and their `minus` are not supported yet", expr.span));
+    fail(program, Message("G0306", "`minus` between values; it takes one region away from another, in the shape of a region", expr.span)
+                      .help("write `region NAME in PANEL: A minus B`; numbers are subtracted with `-`"));
   const Value a = eval(program, expr.children[0], scope);
   const Value b = eval(program, expr.children[1], scope);
   return apply_binary(program, expr, a, b);

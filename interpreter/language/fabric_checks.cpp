@@ -5,6 +5,7 @@
 
 #include "interpreter/language/fabric_fields.hpp"
 #include "interpreter/language/files.hpp"
+#include "interpreter/language/word_lists.hpp"
 
 namespace garment::interpreter {
 namespace {
@@ -107,6 +108,32 @@ void check_pattern(Program& program, const std::string& path, Span span) {
   if (!bytes)
     fail(program, Message("G1133", "the picture `" + path + "` cannot be read: " + bytes.error.message, span)
                       .help("put the file beside the script"));
+}
+
+void note_unused(Program& program, const Given& given) {
+  constexpr std::pair<Slot, const char*> kUnused[] = {{Slot::RT, "`RT`"},
+                                                      {Slot::HG, "`two_HG`"},
+                                                      {Slot::HG5, "`two_HG5`"},
+                                                      {Slot::HB, "`two_HB`"},
+                                                      {Slot::damping, "`damping`"}};
+  std::vector<std::string> names;
+  std::vector<Span> places;
+  for (const auto& [slot, name] : kUnused)
+    for (std::size_t d = 0; d < 2; ++d) {
+      if (!given.at(slot, d) || program.in_library(given.place(slot, d))) continue;
+      if (names.empty() || names.back() != name) names.emplace_back(name);
+      if (std::find(places.begin(), places.end(), given.place(slot, d)) == places.end())
+        places.push_back(given.place(slot, d));
+    }
+  if (names.empty()) return;
+  Message message("G0461", enumerated(names) + (names.size() == 1 ? " is" : " are") +
+                               " kept with the fabric, but a drape to rest does not use " +
+                               (names.size() == 1 ? "it" : "them"),
+                  places[0]);
+  for (std::size_t k = 1; k < places.size(); ++k) message.also(places[k], "");
+  message.diagnostic.severity = Severity::note;
+  report(program, message.help("nothing is to be done: cloth springs back here without loss, and its damping has no "
+                               "effect at rest"));
 }
 
 }  // namespace garment::interpreter

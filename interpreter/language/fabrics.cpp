@@ -243,7 +243,7 @@ bool take_text_field(Program& program, design::Fabric& fabric, const std::string
     const double x = as_quantity(program, value, span, kLength, "`repeat`").value;
     if (!(x >= 1e-3 && x <= 10))
       fail(program,
-           Message("G0309", "`repeat` is " + format_quantity(x, kLength) + "; it must lie in 1 mm .. 1000 cm",
+           Message("G0309", "`repeat` is " + format_quantity(x, kLength) + "; it must lie in 1 mm .. 10 m",
                    span));
     fabric.pattern_repeat = x;
     return true;
@@ -308,6 +308,7 @@ void apply_given(Program& program, design::Fabric& fabric, Given& given) {
   apply_plain(fabric, given);
   apply_fast(program, fabric, given);
   apply_tensile(program, fabric, given);
+  note_unused(program, given);
 }
 
 std::optional<Value> fabric_field(const design::Fabric& fabric, const std::string& name) {

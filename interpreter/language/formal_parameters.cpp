@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "interpreter/language/word_lists.hpp"
+
 namespace garment::interpreter {
 namespace {
 
@@ -91,9 +93,7 @@ void fail_label(Program& program, const Expr& call, std::size_t k, const std::st
   Message message("G0307", "`" + function + "` takes no `" + label_of(call, k) + "`",
                   call.labels[k - 1].span);
   std::string hint = did_you_mean(label_of(call, k), names);
-  if (hint.empty()) {
-    for (const std::string& name : names) hint += (hint.empty() ? "it takes " : ", ") + name;
-  }
+  if (hint.empty() && !names.empty()) hint = "it takes " + listed(names);
   fail(program, message.help(hint));
 }
 
@@ -111,7 +111,9 @@ std::vector<std::size_t> match_arguments(Program& program, const std::string& na
       fail(program, Message("G0307",
                             "`" + name + "` takes " + std::to_string(parameters.size()) +
                                 (parameters.size() == 1 ? " value" : " values") + ", here is one more",
-                            call.children[k].span));
+                            call.children[k].span)
+                        .also(head, "declared here")
+                        .help(names.empty() ? "leave it out" : "it takes " + listed(names) + ", in this order or by name"));
     const auto found = label.empty() ? names.begin() + static_cast<std::ptrdiff_t>(next++)
                                      : std::find(names.begin(), names.end(), label);
     if (found == names.end()) fail_label(program, call, k, name, names);
@@ -122,7 +124,8 @@ std::vector<std::size_t> match_arguments(Program& program, const std::string& na
   for (std::size_t p = 0; p < parameters.size(); ++p)
     if (given[p] == 0 && parameters[p].standard == nullptr)
       fail(program, Message("G0307", "`" + name + "` needs `" + parameters[p].name + "`", call.span)
-                        .also(head, "declared here"));
+                        .also(head, "declared here")
+                        .help("add `" + parameters[p].name + ": VALUE`; it takes " + listed(names)));
   return given;
 }
 

@@ -29,7 +29,7 @@ Value extreme(Call& call, bool largest) {
   for (std::size_t k = 0; k < values.size(); ++k) {
     count_step(call.program, call.expr.span);
     const auto* q = values[k].as<Quantity>();
-    if (q == nullptr) fail(call.program, Message("G0306", "only numbers have an order", place(call, k)));
+    if (q == nullptr) fail(call.program, Message("G0306", kind_of(values[k]) + " where " + called(call) + " takes numbers", place(call, k)));
     if (k == 0) {
       best = *q;
       continue;
@@ -91,7 +91,9 @@ Value rounded(Call& call) {
     return Value{Quantity{F(q.value), q.dimension, false}};
   }
   const Quantity step = wanted(call, 1, q.dimension);
-  if (!(step.value > 0)) fail(call.program, Message("G0309", "a step must be over 0", place(call, 1)));
+  if (!(step.value > 0))
+    fail(call.program, Message("G0309", "a step of " + format_quantity(step.value, step.dimension) + "; it must be over 0",
+                               place(call, 1)));
   return finite(call, {F(q.value / step.value) * step.value, q.dimension, q.percent});
 }
 

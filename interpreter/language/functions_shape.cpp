@@ -3,6 +3,7 @@
 
 #include "interpreter/language/files.hpp"
 #include "interpreter/language/function_arguments.hpp"
+#include "interpreter/language/word_lists.hpp"
 
 namespace garment::interpreter::detail {
 namespace {
@@ -62,7 +63,7 @@ Value run_mannequin(Call& call) {
   design::Mannequin person;
   const auto* sex = call.arguments[0].as<std::string>();
   if (sex == nullptr || (*sex != "woman" && *sex != "man"))
-    fail(call.program, Message("G0309", "`sex` must be \"woman\" or \"man\"", place(call, 0)));
+    fail(call.program, Message("G0309", (sex == nullptr ? kind_of(call.arguments[0]) : "\"" + *sex + "\"") + " where `sex` takes \"woman\" or \"man\"", place(call, 0)));
   const bool woman = *sex == "woman";
   person.sex = woman ? design::Mannequin::Sex::woman : design::Mannequin::Sex::man;
   person.size = as_quantity(call.program, call.arguments[1], place(call, 1), kNumber, "`size`").value;
@@ -79,7 +80,7 @@ Value run_mannequin(Call& call) {
     const Span span = call.further_places[k]->span;
     if (std::find(names.begin(), names.end(), name) == names.end())
       fail(call.program,
-           Message("G0307", "a person has no measure `" + name + "`", span).help(did_you_mean(name, names)));
+           Message("G0307", "a person has no measure `" + name + "`", span).help(meant_or_listed(name, names, "its measures are")));
     const double x = as_quantity(call.program, value, span, kLength, "`" + name + "`").value;
     if (!(x >= 0.05 && x <= 2.6))
       fail(call.program,
@@ -100,7 +101,7 @@ Value run_mesh(Call& call) {
   if (call.given(1)) {
     file.scale = as_quantity(call.program, call.arguments[1], place(call, 1), kNumber, "`scale`").value;
     if (!(file.scale >= 1e-4 && file.scale <= 1e4))
-      fail(call.program, Message("G0309", "`scale` must lie in 0.0001 .. 10000", place(call, 1)));
+      fail(call.program, Message("G0309", "`scale` is " + format_quantity(file.scale, {}) + "; it must lie in 0.0001 .. 10000", place(call, 1)).help("it is metres for one unit of the file: 0.01 for centimetres, 0.001 for millimetres"));
   }
   return Value{ShapeValue{file}};
 }
@@ -116,7 +117,7 @@ Eigen::Vector3d sizes_at(Call& call, std::size_t k) {
     if (!(x >= kSmallest && x <= kLargest))
       fail(call.program,
            Message("G0309",
-                   "`" + name + "` has " + format_quantity(x, kLength) + "; each must lie in 1 mm .. 2000 cm",
+                   "`" + name + "` has " + format_quantity(x, kLength) + "; each must lie in 1 mm .. 20 m",
                    place(call, k)));
   return {p->at[0], p->at[1], p->at[2]};
 }

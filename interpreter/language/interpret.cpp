@@ -14,11 +14,13 @@
 #include "interpreter/language/libraries.hpp"
 #include "interpreter/language/modifiers.hpp"
 #include "interpreter/language/notch_order.hpp"
+#include "interpreter/language/panel_marks.hpp"
 #include "interpreter/language/panels.hpp"
 #include "interpreter/language/parameters.hpp"
 #include "interpreter/language/parts.hpp"
 #include "interpreter/language/placements.hpp"
 #include "interpreter/language/recipe.hpp"
+#include "interpreter/language/remedies.hpp"
 #include "interpreter/language/seams.hpp"
 #include "interpreter/language/studies.hpp"
 #include "interpreter/language/support.hpp"
@@ -91,6 +93,7 @@ void run_all(Program& program) {
   check_buttons(program);
   check_chains(program);
   check_notch_order(program);
+  if (!program.has_error) take_seam_allowances(program);
   if (!program.has_error) check_unsewn(program);
   check_bodies(program);
   if (!program.has_error) check_support(program);
@@ -108,23 +111,17 @@ void sort_parameters(Program& program) {
   program.parameters = std::move(sorted);
 }
 
+std::vector<const grammar::Script*> scripts_of(const Program& program) {
+  std::vector<const grammar::Script*> scripts;
+  for (const Module& module : program.modules) scripts.push_back(&module.script);
+  return scripts;
+}
+
 }  // namespace
 
 bool Interpretation::ok() const {
   return std::none_of(diagnostics.begin(), diagnostics.end(),
                       [](const grammar::Diagnostic& d) { return d.severity == Severity::error; });
-}
-
-grammar::Diagnostics to_diagnostics(const Findings& findings, const std::vector<grammar::Span>& origins) {
-  grammar::Diagnostics diagnostics;
-  for (const Finding& finding : findings) {
-    grammar::Diagnostic diagnostic{finding.code, finding.severity, finding.message, {}, finding.help};
-    for (const FindingLabel& label : finding.labels)
-      if (label.origin.value > 0 && label.origin.value < origins.size())
-        diagnostic.labels.push_back({origins[label.origin.value], label.text});
-    diagnostics.push_back(std::move(diagnostic));
-  }
-  return diagnostics;
 }
 
 namespace {
@@ -175,6 +172,7 @@ Interpretation interpret(grammar::Sources& sources, grammar::SourceId source, Ho
                      return x.source != y.source ? x.source < y.source : x.begin < y.begin;
                    });
   drop_cascades(program.diagnostics, sources);
+  add_remedies(program.diagnostics, scripts_of(program));
   for (const PanelInfo& info : program.panels) program.garment.panels.push_back(info.panel);
   for (const SeamInfo& info : program.seams)
     if (info.ready) program.garment.seams.push_back(info.seam);
@@ -207,6 +205,7 @@ grammar::Diagnostics ask(Program& program, const DrapeMeasures& measures, const 
   program.drape = nullptr;
   grammar::Diagnostics found = std::move(program.diagnostics);
   program.diagnostics = std::move(kept);
+  add_remedies(found, scripts_of(program));
   return found;
 }
 

@@ -10,6 +10,7 @@
 
 #include "grammar/diagnostic.hpp"
 #include "grammar/syntax_tree.hpp"
+#include "interpreter/language/origins.hpp"
 #include "runtime/base/host.hpp"
 #include "runtime/body/body.hpp"
 #include "runtime/design/garment.hpp"
@@ -119,7 +120,7 @@ struct Interpretation {
   std::vector<MeasureValue> measures;
   std::vector<SolvedValue> solved;          ///< in the order of the script
   grammar::Diagnostics diagnostics;
-  std::vector<grammar::Span> origins;       ///< by OriginId; [0] stands for "no statement"
+  Origins origins;                          ///< places of what `garment` is made of
   const grammar::Script* script = nullptr;  ///< the tree of the script, kept alive by `program`
   std::shared_ptr<Program> program;         ///< keeps scopes alive for `expect`; opaque
 
@@ -132,9 +133,6 @@ struct Interpretation {
 /// must outlive the result. Same input, same bits.
 Interpretation interpret(grammar::Sources& sources, grammar::SourceId source, Host& host,
                          const InterpretOptions& options);
-
-/// Findings of the later stages with the places of the script.
-grammar::Diagnostics to_diagnostics(const Findings& findings, const std::vector<grammar::Span>& origins);
 
 /// What can be asked of a finished drape, SI. An empty panel name means the whole garment; nothing means "not
 /// known".

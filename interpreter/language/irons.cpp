@@ -23,7 +23,7 @@ class IronReader {
   design::Press read() {
     if (!statement_.operands.empty())
       fail(program_,
-           Message("G0313", "this means nothing before `along` or `in`", statement_.operands[0].span));
+           Message("G0313", "`" + std::string(program_.sources.text(statement_.operands[0].span)) + "` means nothing before `along` or `in`", statement_.operands[0].span));
     const BoundClause *along = clauses_.find("along"), *in = clauses_.find("in");
     if ((along == nullptr) == (in == nullptr))
       fail(program_,

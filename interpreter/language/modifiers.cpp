@@ -7,6 +7,7 @@
 #include "interpreter/language/outline.hpp"
 #include "interpreter/language/panel_interior.hpp"
 #include "interpreter/language/parts.hpp"
+#include "interpreter/language/word_lists.hpp"
 #include "runtime/design/alter.hpp"
 
 namespace garment::interpreter {
@@ -221,6 +222,7 @@ class Modifier {
                                panel_.name + "`",
                            expr.span)
                        .help(names.empty() ? "draw it in the panel: `line NAME from POINT to POINT`"
+                                           : did_you_mean(name, names).empty() ? "its lines are " + listed(names)
                                            : did_you_mean(name, names)));
   }
 

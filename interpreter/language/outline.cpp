@@ -69,7 +69,7 @@ class EdgeDrawer {
     const auto allowance = clauses_.has("allowance") ? clauses_.quantity("allowance") : std::nullopt;
     edge.allowance = allowance.value_or(0);
     clauses_.finish();
-    if (allowance) drawing_.own_allowance.insert(name_);
+    if (allowance) drawing_.info.own_allowance.insert(name_);
     if (!(edge.curve.length() >= kShortest))
       fail(program_, Message("G0403",
                              kind_ + " `" + name_ + "` is " + format_mm(edge.curve.length()) +
@@ -238,7 +238,8 @@ class EdgeDrawer {
       if (std::fabs(y) < 1e-7 && std::fabs(x) < half) return geometry::Line{};
       if (std::fabs(y) < 1e-7)
         fail(program_, Message("G0413", "no arc goes through three points on a line in this order",
-                               through->clause->span));
+                               through->clause->span)
+                           .help("the point after `through` lies between the ends, beside the straight way"));
       const double center = (x * x + y * y - half * half) / (2 * y);
       const double radius = std::sqrt(half * half + center * center);
       return geometry::Arc{checked_bulge(center + (y > 0 ? radius : -radius))};

@@ -1,8 +1,11 @@
 // Seam allowances: cloth outside the stitch line, and whether there is room for it.
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 
 #include "interpreter/language/panel_marks.hpp"
+#include "interpreter/language/parts.hpp"
 #include "interpreter/language/segments.hpp"
 
 namespace garment::interpreter {
@@ -23,6 +26,13 @@ double outward(const std::vector<design::Edge>& edges, std::size_t first, std::s
   return (area > 0) == hole ? 1 : -1;  // of the normal to the left
 }
 
+/// The edge's name without its half.
+std::string drawn_name(const std::string& name) {
+  for (const std::string_view half : {"left.", "right."})
+    if (name.starts_with(half)) return name.substr(half.size());
+  return name;
+}
+
 /// Where the allowances of two edges lie on each other.
 struct Overlap {
   std::size_t a = 0, b = 0;
@@ -33,8 +43,8 @@ struct Overlap {
 
 class AllowanceChecker {
  public:
-  AllowanceChecker(Drawing& drawing, const std::vector<design::Edge>& edges, double side)
-      : drawing_(drawing), edges_(edges), side_(side), segments_(segments_of(edges)) {}
+  AllowanceChecker(Program& program, const PanelInfo& info, const std::vector<design::Edge>& edges, double side)
+      : program_(program), info_(info), edges_(edges), side_(side), segments_(segments_of(edges)) {}
 
   void run() {
     std::optional<Overlap> worst;
@@ -53,7 +63,7 @@ class AllowanceChecker {
  private:
   /// The legs of a drawn dart are folded on each other, not cut apart.
   bool is_leg(const std::string& name) const {
-    for (const design::LegDart& dart : drawing_.panel.leg_darts)
+    for (const design::LegDart& dart : info_.panel.leg_darts)
       if (dart.leg_a == name || dart.leg_b == name) return true;
     return false;
   }
@@ -64,7 +74,7 @@ class AllowanceChecker {
     const Point2 from = curve.point_at(s), t = curve.tangent_at(s), way = side_ * Point2(-t.y(), t.x());
     std::optional<Overlap> nearest;
     for (const Segment& segment : segments_) {
-      count_step(drawing_.program, drawing_.info.spans[edges_[e].name]);
+      count_step(program_, span_of(edges_[e]));
       const design::Edge& other = edges_[segment.edge];
       if (is_leg(other.name)) continue;
       const Point2 d = segment.b - segment.a, w = segment.a - from;
@@ -105,14 +115,21 @@ class AllowanceChecker {
                         : "the allowances of `" + a.name + "` (" + format_quantity(a.allowance, kLength) + ") and `" +
                               b.name + "` (" + format_quantity(b.allowance, kLength) + ") lie on each other at " +
                               format_point(o.at) + ": the edges are " + format_quantity(o.gap, kLength) + " apart there",
-                    drawing_.info.spans[a.name]);
-    if (!one) message.also(drawing_.info.spans[b.name], "");
-    report(drawing_.program,
+                    span_of(a));
+    if (!one) message.also(span_of(b), "");
+    report(program_,
            message.help(format_quantity(fits, kLength) + (one ? " would fit: `allowance " : " on each would fit: `allowance ") +
                         format_quantity(fits, kLength) + " on " + a.name + "`"));
   }
 
-  Drawing& drawing_;
+  /// Where the edge was drawn, whichever half it is in.
+  Span span_of(const design::Edge& edge) const {
+    const auto found = info_.spans.find(drawn_name(edge.name));
+    return found == info_.spans.end() ? Span{} : found->second;
+  }
+
+  Program& program_;
+  const PanelInfo& info_;
   const std::vector<design::Edge>& edges_;
   double side_;
   std::vector<Segment> segments_;
@@ -148,17 +165,42 @@ void add_allowance(Drawing& drawing, const RecipeItem& item) {
                         .help("allowances are left at edges of the outline and of holes"));
   for (auto* edges : {&drawing.panel.edges, &drawing.panel.hole_edges})
     for (design::Edge& edge : *edges)
-      if (name.empty() ? !drawing.own_allowance.contains(edge.name) : edge.name == name) edge.allowance = width;
-  if (!name.empty()) drawing.own_allowance.insert(name);
+      if (name.empty() ? !drawing.info.own_allowance.contains(edge.name) : edge.name == name) edge.allowance = width;
+  if (!name.empty()) drawing.info.own_allowance.insert(name);
 }
 
-void check_allowances(Drawing& drawing) {
-  design::Panel& panel = drawing.panel;
-  AllowanceChecker(drawing, panel.edges, outward(panel.edges, 0, panel.edges.size(), false)).run();
+void check_allowances(Program& program, const PanelInfo& info) {
+  const design::Panel& panel = info.panel;
+  AllowanceChecker(program, info, panel.edges, outward(panel.edges, 0, panel.edges.size(), false)).run();
   for (const design::Hole& hole : panel.holes) {
     const auto first = panel.hole_edges.begin() + hole.first;
     const std::vector<design::Edge> edges(first, first + hole.count);
-    AllowanceChecker(drawing, edges, outward(edges, 0, edges.size(), true)).run();
+    AllowanceChecker(program, info, edges, outward(edges, 0, edges.size(), true)).run();
+  }
+}
+
+void take_seam_allowances(Program& program) {
+  std::map<const design::Edge*, double> widest;  // of those seen; nothing follows from the order here
+  std::set<std::size_t> changed;
+  for (const SeamInfo& seam : program.seams) {
+    if (!seam.ready || !seam.seam.finish.allowance) continue;
+    const double width = *seam.seam.finish.allowance;
+    for (const design::SeamSide& side : seam.seam.sides)
+      for (const design::EdgePart& part : side.parts) {
+        PanelInfo& info = program.panels[static_cast<std::size_t>(part.panel)];
+        if (part.on == design::EdgePart::On::line) continue;  // there is cloth on both sides already
+        auto& edges = part.on == design::EdgePart::On::hole ? info.panel.hole_edges : info.panel.edges;
+        design::Edge& edge = edges[static_cast<std::size_t>(part.edge)];
+        if (info.own_allowance.contains(drawn_name(edge.name))) continue;
+        double& most = widest.try_emplace(&edge, width).first->second;
+        most = std::max(most, width);
+        edge.allowance = most;
+        changed.insert(static_cast<std::size_t>(part.panel));
+      }
+  }
+  for (std::size_t p : changed) {
+    PartGuard guard(program, program.panels[p].part);
+    check_allowances(program, program.panels[p]);
   }
 }
 

@@ -6,6 +6,7 @@
 #include "interpreter/language/outline.hpp"
 #include "interpreter/language/panel_marks.hpp"
 #include "interpreter/language/segments.hpp"
+#include "interpreter/language/word_lists.hpp"
 
 namespace garment::interpreter {
 namespace {
@@ -145,7 +146,7 @@ class DartMaker {
       names.push_back(panel_.edges[k].name);
     }
     fail(program_, Message("G0301", "panel `" + panel_.name + "` has no edge `" + name + "`", expr.span)
-                       .help(did_you_mean(name, names)));
+                       .help(meant_or_listed(name, names, "its edges are")));
   }
 
   /// The corner between the legs points into the cloth.

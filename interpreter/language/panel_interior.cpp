@@ -3,6 +3,7 @@
 #include "interpreter/language/clauses.hpp"
 #include "interpreter/language/edges.hpp"
 #include "interpreter/language/outline.hpp"
+#include "interpreter/language/word_lists.hpp"
 #include "runtime/design/unfold_interior.hpp"
 
 namespace garment::interpreter {
@@ -56,7 +57,9 @@ class InteriorDrawer {
       fail(program_, Message("G0414",
                              "point `" + item.name + "` is at " + format_quantity(s, kLength) + " of `" + edge.name +
                                  "`, which is " + format_quantity(length, kLength) + " long",
-                             at.clause->span));
+                             at.clause->span)
+                         .help("positions on it are 0 .. " + format_quantity(length, kLength) +
+                               ", from its drawn start; `2 cm before end` counts back"));
     return edge.curve.point_at(s);
   }
 
@@ -66,7 +69,7 @@ class InteriorDrawer {
     const std::string name = renamed(item, name_of(program_, expr, scope));
     if (const design::Edge* edge = find_drawn_edge(panel_, name)) return *edge;
     fail(program_, Message("G0301", "panel `" + panel_.name + "` has no edge or line `" + name + "`", expr.span)
-                       .help(did_you_mean(name, drawn_edge_names(panel_))));
+                       .help(meant_or_listed(name, drawn_edge_names(panel_), "drawn so far are")));
   }
 
   void add_hole(const RecipeItem& item) {

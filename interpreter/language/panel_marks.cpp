@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "interpreter/language/edges.hpp"
+#include "interpreter/language/word_lists.hpp"
 
 namespace garment::interpreter {
 namespace {
@@ -21,7 +22,9 @@ void add_notch(Drawing& drawing, const RecipeItem& item) {
     fail(program, Message("G0414",
                           "notch `" + item.name + "` is at " + format_quantity(s, kLength) + " of edge `" + edge.name +
                               "`; the edge is " + format_quantity(length, kLength) + " long",
-                          at.clause->span));
+                          at.clause->span)
+                      .help("positions on it are 0 .. " + format_quantity(length, kLength) +
+                            ", from its drawn start; `2 cm before end` counts back"));
   drawing.panel.notches.push_back(
       {item.name, program.origin(item.statement->span), edge.name, std::clamp(s, 0.0, length)});
 }
@@ -71,7 +74,7 @@ const design::Edge& edge_under(Drawing& drawing, const RecipeItem& item, Clauses
   const std::string name = renamed(item, name_of(program, expr, *on.scope));
   if (const design::Edge* edge = find_drawn_edge(drawing.panel, name)) return *edge;
   fail(program, Message("G0301", "panel `" + drawing.panel.name + "` has no edge `" + name + "`", expr.span)
-                    .help(did_you_mean(name, drawn_edge_names(drawing.panel))));
+                    .help(meant_or_listed(name, drawn_edge_names(drawing.panel), "its edges and lines are")));
 }
 
 const design::Edge& outline_edge_under(Drawing& drawing, const RecipeItem& item, Clauses& clauses) {
@@ -141,7 +144,7 @@ bool add_marks(Drawing& drawing) {
   take(drawing.recipe.allowances, add_allowance);
   for (design::Edge& edge : drawing.panel.edges)
     if (edge.name == drawing.recipe.fold) edge.allowance = 0;
-  if (good) check_allowances(drawing);
+  if (good) check_allowances(drawing.program, drawing.info);
   for (const design::Notch& notch : drawing.panel.notches) check_notch(drawing, notch);
   return good;
 }

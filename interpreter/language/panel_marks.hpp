@@ -28,7 +28,10 @@ inline constexpr double kWidestAllowance = 0.3;  ///< m
 /// `allowance LENGTH [on EDGE]`.
 void add_allowance(Drawing& drawing, const RecipeItem& item);
 /// Reports allowances that lie on each other (G0431).
-void check_allowances(Drawing& drawing);
+void check_allowances(Program& program, const PanelInfo& info);
+/// Gives the edges that a seam with an `allowance` sews that width, in whole, unless they state one of their own; where
+/// several such seams sew an edge, the widest.
+void take_seam_allowances(Program& program);
 
 /// The stretch of an edge that a dart's mouth or a pleat takes, [from, to] in m, may not reach beyond the edge (G0408)
 /// nor over that of another (G0417).

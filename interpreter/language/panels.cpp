@@ -9,7 +9,9 @@
 #include "interpreter/language/panel_interior.hpp"
 #include "interpreter/language/panel_marks.hpp"
 #include "interpreter/language/parts.hpp"
+#include "interpreter/language/word_lists.hpp"
 #include "runtime/base/portable_math.hpp"
+#include "runtime/design/fineness.hpp"
 #include "runtime/design/unfold.hpp"
 
 namespace garment::interpreter {
@@ -91,13 +93,15 @@ class PanelMaker {
         fail(program_, Message("G0409",
                                "a resolution of " + format_quantity(panel_.resolution, kLength) +
                                    "; it must lie in 1 mm .. 10 cm",
-                               resolution->value->span));
+                               resolution->value->span)
+                           .help("5 mm to 15 mm suit most garments; is a unit wrong?"));
     }
     if (const RecipeValue* label = value_of("label")) {
       panel_.label = eval_text(program_, *label->value, *label->scope, "`label`");
       if (panel_.label != "body" && panel_.label != "leg" && panel_.label != "arm")
         fail(program_,
-             Message("G0309", "a panel's label is \"body\", \"leg\" or \"arm\"", label->value->span));
+             Message("G0309", "\"" + panel_.label + "\" where `label` takes \"body\", \"leg\" or \"arm\"", label->value->span)
+                 .help("it says where the piece is worn; leave it out where none fits"));
     }
   }
 
@@ -129,7 +133,7 @@ class PanelMaker {
       fail(program_,
            Message("G0301", "panel `" + panel_.name + "` has no edge `" + recipe_->fold + "` to fold on",
                    recipe_->fold_span)
-               .help(did_you_mean(recipe_->fold, names)));
+               .help(meant_or_listed(recipe_->fold, names, "its edges are")));
     for (const design::Notch& notch : panel_.notches) refuse_on_fold(notch.edge, notch.name);
     for (const design::EdgeDart& dart : panel_.darts) refuse_on_fold(dart.edge, dart.name);
     for (const design::Pleat& pleat : panel_.pleats) refuse_on_fold(pleat.edge, pleat.name);
@@ -185,7 +189,8 @@ class PanelMaker {
     info_.counter_clockwise = area > 0;
     info_.area = std::fabs(area);
     if (info_.area < 1e-6)
-      fail(program_, Message("G0401", "the outline of `" + panel_.name + "` encloses no area", head_span()));
+      fail(program_, Message("G0401", "the outline of `" + panel_.name + "` encloses no area", head_span())
+                         .help("its edges run back on themselves: check the signs of the points"));
     if (!info_.folded) {
       if (recipe_->outline.statement->operands.empty()) {
         for (std::size_t k = 0; k < panel_.edges.size(); ++k)
@@ -201,6 +206,7 @@ class PanelMaker {
     for (const design::Edge& edge : panel_.edges)
       for (const Point2& p : edge.curve.polyline(1e-3)) low = low.cwiseMin(p), high = high.cwiseMax(p);
     const double narrow = (high - low).minCoeff();
+    const double fits = design::fitting_resolution(design::half_mean_width(panel_), panel_.resolution);
     if (narrow < 2 * panel_.resolution)
       report(program_, Message("G0410",
                                "panel `" + panel_.name + "` is " + format_quantity(narrow, kLength) +
@@ -208,8 +214,8 @@ class PanelMaker {
                                    format_quantity(panel_.resolution, kLength),
                                head_span())
                            .warning()
-                           .help("state `resolution " +
-                                 format_quantity(std::max(1e-3, narrow / 4), kLength, false, 1) + "`"));
+                           .help("state `" + panel_.name + ".resolution = " +
+                                 format_quantity(std::max(design::kFinestResolution, fits), kLength) + "`"));
     info_.ready = true;
   }
 

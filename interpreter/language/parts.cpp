@@ -6,6 +6,7 @@
 #include "interpreter/language/declarations.hpp"
 #include "interpreter/language/formal_parameters.hpp"
 #include "interpreter/language/function_table.hpp"
+#include "interpreter/language/word_lists.hpp"
 
 namespace garment::interpreter {
 namespace {
@@ -25,12 +26,6 @@ std::vector<std::string> names_of(const Scope& scope, const char* keyword) {
   for (const auto& [name, declaration] : scope.declared)
     if (keyword_of(*declaration) == keyword) names.push_back(name);
   return names;
-}
-
-std::string listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
 }
 
 [[noreturn]] void fail_component(Program& program, const std::string& name, Span span, const Scope& scope) {

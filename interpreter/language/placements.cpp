@@ -5,6 +5,7 @@
 #include "interpreter/language/edges.hpp"
 #include "interpreter/language/outline.hpp"
 #include "interpreter/language/seams.hpp"
+#include "interpreter/language/word_lists.hpp"
 #include "runtime/base/portable_math.hpp"
 
 namespace garment::interpreter {
@@ -54,12 +55,13 @@ std::string eval_with_edge(Program& program, const Expr& expr, Scope& scope, int
     if (edge == nullptr) edge = find_edge(info, "left", name);
     if (edge == nullptr)
       fail(program, Message("G0301", "panel `" + info.panel.name + "` has no edge `" + name + "`", expr.span)
-                        .help(did_you_mean(name, edge_names(info))));
+                        .help(meant_or_listed(name, edge_names(info), "its edges are")));
     return outline_name(program, info, edge->parts.front(), expr.span);
   }
   const EdgeValue edge = eval_edges(program, expr, scope, "`with`");
   if (edge.spans.size() != 1 || edge.spans[0].panel != panel)
-    fail(program, Message("G0610", "`with` takes an edge of the panel that is placed", expr.span));
+    fail(program, Message("G0610", "`" + std::string(program.sources.text(expr.span)) + "` where `with` takes an edge of the panel that is placed, `" + info.panel.name + "`", expr.span)
+                      .help("its edges are " + listed(edge_names(info))));
   return outline_name(program, info, edge.spans[0].parts.front(), expr.span);
 }
 
@@ -235,8 +237,9 @@ Value evaluate_pin(Program& program, Declaration& declaration) {
   if (p.panel >= 0 && p.panel != panel)
     fail(program, Message("G0613",
                           "the point lies on panel `" +
-                              program.panels[static_cast<std::size_t>(p.panel)].panel.name + "`",
-                          expr.span));
+                              program.panels[static_cast<std::size_t>(p.panel)].panel.name + "`, not on `" + info.panel.name + "`",
+                          expr.span)
+                      .help("name the panel that the point lies on after `on`, or take a point of `" + info.panel.name + "`"));
   const design::Point2 point(p.at[0], p.at[1]);
   if (!contains(info.panel, point, 1e-3))
     fail(program,

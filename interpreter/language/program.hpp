@@ -132,6 +132,7 @@ struct PanelInfo {
   bool counter_clockwise = true;  ///< sense of Panel::edges
   std::vector<NamedEdge> edges;
   std::map<std::string, Span> spans;  ///< of all that is named in the panel, by its drawn name
+  std::set<std::string> own_allowance;    ///< edges, by drawn name, whose allowance is stated for them alone
   bool on_back = false;               ///< placed on a `.back`: left is the smaller-x half
   std::vector<Item> modifiers;        ///< `slash`, `move`, `scale` that act on it, in order
 };
@@ -188,7 +189,7 @@ struct Program {
 
   grammar::Diagnostics diagnostics;
   bool has_error = false;
-  std::vector<Span> origins{Span{}};
+  Origins origins;
   std::vector<Declaration*> running;     ///< for cycles
   std::vector<Span> calls;               ///< places of the calls being run
   const Part* part = nullptr;            ///< whose block is being evaluated

@@ -5,6 +5,7 @@
 #include "interpreter/language/clauses.hpp"
 #include "interpreter/language/declarations.hpp"
 #include "interpreter/language/panels.hpp"
+#include "interpreter/language/word_lists.hpp"
 
 namespace garment::interpreter {
 namespace {
@@ -57,7 +58,7 @@ class RecipeMaker {
     for (const char* word : {"under", "over"}) clauses.skip(word);  // once all panels are known: settle_layers
     clauses.finish();
     if (!statement.operands.empty())
-      fail(program_, Message("G0313", "this means nothing in a panel's head", statement.operands[0].span));
+      fail(program_, Message("G0313", "`" + std::string(program_.sources.text(statement.operands[0].span)) + "` means nothing in a panel's head", statement.operands[0].span));
     inherited_ = like != nullptr;
     if (statement.body) take_body(*statement.body);
     for (Override& change : declaration_.overrides) assign(change);
@@ -111,7 +112,8 @@ class RecipeMaker {
     if (keyword == "rename" || keyword == "remove" || keyword == "replace") {
       if (!inherited_)
         fail(program_, Message("G0322", "`" + keyword + "` stands in the block of `like PANEL` only",
-                               statement.keyword.span));
+                               statement.keyword.span)
+                           .help("this panel is drawn here: correct its own statements, or make it `like` another one"));
       if (keyword == "rename") return rename(statement, scope);
       if (keyword == "remove") return remove(statement, scope);
       return replace(statement, scope);
@@ -207,7 +209,9 @@ class RecipeMaker {
     for (const Expr* at = &target; at != nullptr;
          at = at->kind == ExprKind::member ? &at->children[0] : nullptr) {
       if (at->kind != ExprKind::member && at->kind != ExprKind::name)
-        fail(program_, Message("G0311", "this cannot be assigned to", target.span));
+        fail(program_, Message("G0311", "`" + std::string(program_.sources.text(target.span)) + "` cannot be assigned to",
+                                target.span)
+                           .help("what is assigned is a property: `waist_dart.depth = 11 cm`, `resolution = 5 mm`"));
       change.path.insert(change.path.begin(), name_of(program_, *at, scope));
     }
     change.value = &statement.operands[1];
@@ -216,14 +220,14 @@ class RecipeMaker {
     for (const Override& other : own_)
       if (other.path == change.path)
         fail(program_,
-             Message("G0321", "this is assigned twice", target.span).also(other.span, "first here"));
+             Message("G0321", "`" + std::string(program_.sources.text(target.span)) + "` is assigned twice", target.span).also(other.span, "first here"));
     own_.push_back(change);
     assign(change);
     if (!change.used)
       fail(program_,
            Message("G0311", "there is no `" + std::string(program_.sources.text(target.span)) + "` here",
                    target.span)
-               .help(did_you_mean(change.path[0], item_names(recipe_))));
+               .help(meant_or_listed(change.path[0], item_names(recipe_), "the panel has")));
   }
 
   void assign(Override& change) {
@@ -299,7 +303,7 @@ class RecipeMaker {
   RecipeItem& inherited_item(const std::string& name, Span span) {
     if (RecipeItem* item = find_item(recipe_, name)) return *item;
     fail(program_, Message("G0416", "the panel has nothing named `" + name + "`", span)
-                       .help(did_you_mean(name, item_names(recipe_))));
+                       .help(meant_or_listed(name, item_names(recipe_), "the panel has")));
   }
 
   Program& program_;

@@ -173,7 +173,7 @@ Value evaluate_region(Program& program, Declaration& declaration) {
   const Statement& statement = *declaration.statement;
   Scope& scope = *declaration.scope;
   for (const Expr& operand : statement.operands)
-    fail(program, Message("G0313", "this means nothing before `in`", operand.span));
+    fail(program, Message("G0313", "`" + std::string(program.sources.text(operand.span)) + "` means nothing before `in`", operand.span));
   BoundClause in{nullptr, &scope};
   bool shape_begun = false;
   for (const Clause& clause : statement.clauses) {
@@ -229,7 +229,9 @@ void run_starch(Program& program, const Item& item) {
     fail(program, Message("G0312", "`starch` takes one region", statement.keyword.span).help(form));
   if (statement.operands.size() > 1)
     fail(program,
-         Message("G0313", "this means nothing before `factor`", statement.operands[1].span).help(form));
+         Message("G0313", "`" + std::string(program.sources.text(statement.operands[1].span)) + "` means nothing before `factor`",
+                 statement.operands[1].span)
+             .help(form));
   design::Starch starch;
   starch.origin = program.origin(statement.span);
   starch.region = eval_region(program, statement.operands[0], scope, "`starch`");

@@ -31,7 +31,7 @@ class SeamMaker {
     }
     if (!statement_.operands.empty())
       fail(program_,
-           Message("G0313", "this means nothing before the first side", statement_.operands[0].span));
+           Message("G0313", "`" + std::string(program_.sources.text(statement_.operands[0].span)) + "` means nothing before the first side", statement_.operands[0].span));
     if (sides_.size() < 2)
       fail(program_, Message("G0507",
                              "seam `" + declaration_.name + "` has " + std::to_string(sides_.size()) +

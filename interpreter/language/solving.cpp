@@ -142,7 +142,7 @@ class Solver {
     program_.diagnostics = std::move(kept);
     program_.has_error = had_error;
     if (stuck != nullptr)
-      fail(program_, Message("G1206", "the condition depends on `" + declaration_.name + "` by way of the " +
+      fail(program_, Message("G1205", "`" + declaration_.name + "` cannot be tried: the condition depends on it by way of the " +
                                           stuck->statement->keyword.text + " `" + stuck->name + "`, which is made once only",
                              condition_->span)
                          .also(stuck->statement->span, "declared here")

@@ -33,6 +33,7 @@ constexpr Named kNamed[] = {
     {kMass, "a mass", "g"},
     {kForce, "a force", "N"},
     {kAcceleration, "an acceleration", "m/s^2"},
+    {{1, 0, -1, 0}, "a speed", "m/s"},
     {kForcePerLength, "a force per width", "N/m"},
     {kShearRigidity, "a shear rigidity", "gf/cm/deg"},
     {kMoment, "a bending rigidity or energy", "gf*cm^2/cm"},
@@ -145,9 +146,10 @@ std::string example_unit(Dimension dimension) {
 
 std::string format_quantity(double value, Dimension dimension, bool percent, int digits) {
   if (percent && dimension.none()) return format_number(100 * value, digits) + '%';
-  if (dimension == kLength)
-    return std::fabs(value) < 0.01 && value != 0 ? format_number(1000 * value, digits) + " mm"
-                                                 : format_number(100 * value, digits) + " cm";
+  if (dimension == kLength) {
+    if (std::fabs(value) < 0.01 && value != 0) return format_number(1000 * value, digits) + " mm";
+    return std::fabs(value) < 10 ? format_number(100 * value, digits) + " cm" : format_number(value, digits) + " m";
+  }
   if (dimension == kArea) return format_number(1e4 * value, digits) + " cm^2";
   if (dimension == kAngle) return format_number(value * (180 / kPi), digits) + " deg";
   if (dimension == kMass) return format_number(1000 * value, digits) + " g";

@@ -7,6 +7,7 @@
 
 #include "runtime/base/number.hpp"
 #include "runtime/base/parallel.hpp"
+#include "runtime/design/fineness.hpp"
 #include "runtime/modeller/bending.hpp"
 #include "runtime/modeller/holds.hpp"
 #include "runtime/modeller/placement.hpp"
@@ -56,19 +57,9 @@ bool check_inputs(const design::Garment& garment, const ModelOptions& options, F
   return findings.size() == before;
 }
 
-/// Half the mean width of an outline, seen as a strip: its area over its length.
-double half_width(const design::Panel& panel) {
-  double area = 0, perimeter = 0;
-  for (const design::Edge& edge : panel.edges) {
-    area += edge.curve.area_term();
-    perimeter += edge.curve.length();
-  }
-  return perimeter > 0 ? std::abs(area) / perimeter : 0;
-}
-
 double spacing_of(const design::Panel& panel, const ModelOptions& options) {
   double stated = options.resolution > 0 ? options.resolution : panel.resolution;
-  return options.coarsen > 1 ? std::max(stated, std::min(stated * options.coarsen, half_width(panel)))
+  return options.coarsen > 1 ? std::max(stated, std::min(stated * options.coarsen, design::half_mean_width(panel)))
                              : stated;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "runtime/base/number.hpp"
+#include "runtime/design/fineness.hpp"
 #include "runtime/modeller/crossing.hpp"
 
 namespace garment::modeller {
@@ -78,7 +79,8 @@ void report_coarse(const BorderPanel& panel, const std::string& what, double fit
        fmt::format("panel `{}` is too small for its grid of {} mm: {}", panel.panel->name,
                    format_number(panel.h * 1000, 3), what),
        {{panel.panel->origin, ""}},
-       fmt::format("a resolution of {} mm or finer fits this panel", format_number(fits * 1000, 2))});
+       fits >= design::kFinestResolution ? fmt::format("state `{}.resolution = {} mm`", panel.panel->name, format_number(fits * 1000, 3))
+                       : "widen the panel: it is narrower than two spacings of the finest resolution, 1 mm"});
 }
 
 }  // namespace
@@ -87,8 +89,7 @@ std::optional<PanelMesh> mesh_panel(const BorderPanel& panel, const GridFrame& f
                                     Findings& findings) {
   double perimeter = 0;
   for (const Piece& piece : panel.outline.pieces) perimeter += piece.length();
-  // half the mean width of a strip of this area and border; two spacings across are wanted
-  double fits = std::min(panel.outline.area / perimeter, 0.7 * panel.h);
+  double fits = design::fitting_resolution(panel.outline.area / perimeter, panel.h);
   if (border.at.size() < 3) {
     report_coarse(panel, "its border holds no three particles", fits, findings);
     return std::nullopt;

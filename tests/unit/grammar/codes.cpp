@@ -55,9 +55,18 @@ TEST_CASE("the rows are unique, in their section, and explain") {
     CHECK(std::all_of(row.code.begin() + 1, row.code.end(), [](char c) { return c >= '0' && c <= '9'; }));
     CHECK(row.title.size() > 5);
     CHECK(row.explanation.size() > 40);
+    CHECK(row.explanation.find("\n\nWhat to do: ") != std::string_view::npos);
+    CHECK(remedy_of(row.code).size() > 5);
   }
   CHECK(find_code("G0101")->title == "the source is not UTF-8 text");
   CHECK(find_code("G9999") == nullptr);
+}
+
+TEST_CASE("the remedy of a code is the first sentence of what to do") {
+  CHECK(remedy_of("G0314") == "keep one of the two");
+  CHECK(remedy_of("G0107") == "write the digits on both sides of the point; a range has two points: 0 .. 1");
+  CHECK(remedy_of("G0302") == "take another name, or remove one of the two");
+  CHECK(remedy_of("G9999").empty());
 }
 
 TEST_CASE("every code of the grammar is raised by a test of the grammar") {
