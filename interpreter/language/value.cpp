@@ -3,6 +3,12 @@
 #include "runtime/base/number.hpp"
 
 namespace garment::interpreter {
+
+Value::Value(const Value&) = default;
+Value::Value(Value&&) noexcept = default;
+Value& Value::operator=(const Value&) = default;
+Value& Value::operator=(Value&&) noexcept = default;
+Value::~Value() = default;
 namespace {
 
 constexpr std::size_t kShownText = 200;

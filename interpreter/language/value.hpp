@@ -122,12 +122,23 @@ struct ThingValue {
 struct AllValue {};
 struct DrapedValue {};
 
+/// Copied, moved and destroyed out of line: every file of the room would else compile the visits of all kinds anew.
 struct Value {
-  std::variant<std::monostate, Quantity, bool, TextValue, PointValue, ListValue, RangeValue, RecordValue, CurveValue,
-               FunctionValue, BuiltinValue, ModuleValue, FabricValue, ShapeValue, BodyValue, BodyPlaceValue,
-               PanelValue, HalfValue, EdgeValue, DartValue, NotchValue, SeamValue, PinValue, ThingValue,
-               AllValue, DrapedValue>
-      data;
+  using Data = std::variant<std::monostate, Quantity, bool, TextValue, PointValue, ListValue, RangeValue, RecordValue, CurveValue,
+                            FunctionValue, BuiltinValue, ModuleValue, FabricValue, ShapeValue, BodyValue, BodyPlaceValue,
+                            PanelValue, HalfValue, EdgeValue, DartValue, NotchValue, SeamValue, PinValue, ThingValue,
+                            AllValue, DrapedValue>;
+  Data data;
+
+  Value() = default;
+  template <class Kind>
+    requires(!std::is_same_v<std::remove_cvref_t<Kind>, Value> && std::is_constructible_v<Data, Kind>)
+  explicit Value(Kind&& kind) : data(std::forward<Kind>(kind)) {}
+  Value(const Value&);
+  Value(Value&&) noexcept;
+  Value& operator=(const Value&);
+  Value& operator=(Value&&) noexcept;
+  ~Value();
 
   template <class T>
   const T* as() const {
