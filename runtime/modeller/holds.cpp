@@ -103,38 +103,99 @@ bool reaches(const design::RegionTest& test, const design::Point2& p) {
   return false;
 }
 
-/// Between the jaws nothing bends. Where the cloth leaves them, at `b` of a stencil (a, b, c) with a and b held, only the half
-/// towards c bends: h- + h+ of the energy p B psi^2 / (h- + h+) is h+ alone. Without this a strip would be longer by h / 2.
-void stiffen_at_jaws(const std::vector<bool>& clamped, model::Model& model) {
-  for (std::size_t k = 0; k < model.bend.size(); ++k) {
-    const model::Indices<3>& at = model.bend[k];
-    const bool before = clamped[at[0]], after = clamped[at[2]];
-    if (!clamped[at[1]] || before == after) continue;
-    const Eigen::Vector2d& h = model.bend_lengths[k];
-    model.bend_rigidity[k] *= h.sum() / (before ? h[1] : h[0]);
+/// Where the cloth leaves the jaws on the way from `inside` to `outside`, as a share of it.
+double way_out(const design::RegionTest& test, const design::Point2& inside, const design::Point2& outside) {
+  double in = 0, out = 1;
+  for (int k = 0; k < 40; ++k) {
+    const double middle = 0.5 * (in + out);
+    (reaches(test, inside + middle * (outside - inside)) ? in : out) = middle;
   }
+  return in;
 }
+
+/// Jaws of one region on one panel: which of its particles they hold, and the bending where the cloth leaves them.
+class Jaws {
+ public:
+  Jaws(const design::RegionTest& test, const MeshedPanel& panel, const model::Model& model)
+      : test_(test), panel_(panel), vertex_(model.n_particles(), -1), held_(model.n_particles(), false) {
+    for (std::size_t v = 0; v < panel.mesh.at.size(); ++v) {
+      const Index particle = model.vertex_particle[panel.first_vertex + v];
+      vertex_[particle] = static_cast<int>(v);
+      held_[particle] = reaches(test, panel.mesh.at[v]);
+    }
+  }
+
+  const std::vector<bool>& held() const { return held_; }
+
+  /// A particle less than half a spacing outside is held too: the joint there is nearer to the jaws than that before it.
+  void reach_on(const model::Model& model) {
+    std::vector<Index> more;
+    for (std::size_t k = 0; k < model.bend.size(); ++k)
+      if (const auto way = leaving(model, k); way && way->outside > 0.5 - 1e-9) more.push_back(way->next);
+    for (const Index particle : more) held_[particle] = true;
+  }
+
+  /// Between the jaws nothing bends: of the cloth that a joint stands for, from the middle of one segment to that of the next,
+  /// only what is outside does. h- + h+ of the energy p B psi^2 / (h- + h+) is twice that. Without this a strip would be longer by
+  /// up to a spacing, and its rigidity come out too small by three times as much of its length.
+  void stiffen(model::Model& model) const {
+    for (std::size_t k = 0; k < model.bend.size(); ++k) {
+      const auto way = leaving(model, k);
+      if (!way) continue;
+      const Eigen::Vector2d& h = model.bend_lengths[k];
+      const double before = way->forward ? h[0] : h[1], after = way->forward ? h[1] : h[0];
+      // Outside the jaws of the half segment behind, and of the half segment ahead.
+      const double free = std::min(0.5, 1 - way->behind) * before + std::max(0.0, 0.5 - way->outside) * after;
+      model.bend_rigidity[k] *= h.sum() / (2 * std::max(free, 0.01 * h.sum()));
+    }
+  }
+
+ private:
+  struct Leaving {
+    bool forward;     ///< the particle before is held, the one after is not
+    Index next;       ///< the one that is not
+    double outside;   ///< share of the way to it that lies in the jaws
+    double behind;    ///< share of the way from the particle before to the joint that lies in the jaws; 1 where all of it does
+  };
+
+  /// The stencil, if it stands where the cloth leaves the jaws: two neighbours held, the third not.
+  std::optional<Leaving> leaving(const model::Model& model, std::size_t k) const {
+    const model::Indices<3>& at = model.bend[k];
+    if (!held_[at[1]] || held_[at[0]] == held_[at[2]]) return std::nullopt;
+    const bool forward = held_[at[0]];
+    const Index before = forward ? at[0] : at[2], next = forward ? at[2] : at[0];
+    if (vertex_[before] < 0 || vertex_[at[1]] < 0 || vertex_[next] < 0) return std::nullopt;  // across a seam
+    const auto& flat = panel_.mesh.at;
+    const design::Point2 &a = flat[vertex_[before]], &b = flat[vertex_[at[1]]], &c = flat[vertex_[next]];
+    const bool joint_inside = reaches(test_, b);
+    return Leaving{forward, next, joint_inside ? way_out(test_, b, c) : 0, joint_inside ? 1 : way_out(test_, a, b)};
+  }
+
+  const design::RegionTest& test_;
+  const MeshedPanel& panel_;
+  std::vector<int> vertex_;  // of each particle on this panel
+  std::vector<bool> held_;
+};
 
 /// What lies between the jaws stays where it starts.
 void add_clamp(const design::Clamp& clamp, const design::Garment& garment,
                const std::vector<BorderPanel>& outlines, const Borders& borders,
-               const std::vector<MeshedPanel>& panels, Holds& holds, std::vector<bool>& clamped, model::Model& model) {
-  auto hold = [&](int panel, std::size_t vertex) {
-    Index particle = model.vertex_particle[panels[panel].first_vertex + vertex];
-    clamped[particle] = true;
-    holds.add(particle, HoldKind::point, model.start[particle], model);
-  };
+               const std::vector<MeshedPanel>& panels, Holds& holds, model::Model& model) {
   for (const design::EdgePart& part : clamp.parts) {
     if (part.on == design::EdgePart::On::line) continue;  // told as not modelled
-    for (int v : vertices_on(part, outlines[part.panel], borders.panels[part.panel]))
-      hold(part.panel, static_cast<std::size_t>(v));
+    for (int v : vertices_on(part, outlines[part.panel], borders.panels[part.panel])) {
+      const Index particle = model.vertex_particle[panels[part.panel].first_vertex + v];
+      holds.add(particle, HoldKind::point, model.start[particle], model);
+    }
   }
   if (clamp.region < 0) return;
   for (const design::RegionPart& part : garment.regions[clamp.region].parts) {
     const design::RegionTest test(garment.panels[part.panel], part.shape);
-    const MeshedPanel& p = panels[part.panel];
-    for (std::size_t v = 0; v < p.mesh.at.size(); ++v)
-      if (reaches(test, p.mesh.at[v])) hold(part.panel, v);
+    Jaws jaws(test, panels[part.panel], model);
+    jaws.reach_on(model);
+    jaws.stiffen(model);
+    for (std::size_t i = 0; i < model.n_particles(); ++i)
+      if (jaws.held()[i]) holds.add(static_cast<Index>(i), HoldKind::point, model.start[i], model);
   }
 }
 
@@ -168,10 +229,8 @@ void add_holds(const design::Garment& garment, const std::vector<body::Body>& bo
       }
     }
   }
-  std::vector<bool> clamped(model.n_particles(), false);
   for (const design::Clamp& clamp : garment.scene.clamps)
-    add_clamp(clamp, garment, outlines, borders, panels, holds, clamped, model);
-  stiffen_at_jaws(clamped, model);
+    add_clamp(clamp, garment, outlines, borders, panels, holds, model);
   for (const design::Pin& pin : garment.pins) add_pin(pin, panels, holds, model, findings);
 }
 
