@@ -22,7 +22,11 @@ grammar::Diagnostics to_diagnostics(const Findings& findings, const Origins& ori
     for (const FindingLabel& label : finding.labels) {
       if (label.origin.value == 0 || label.origin.value >= origins.size()) continue;
       if (diagnostic.labels.empty()) caller = origins.caller_of(label.origin.value);
-      diagnostic.labels.push_back({origins[label.origin.value], label.text});
+      const grammar::Label shown{origins[label.origin.value], label.text};
+      const bool again = std::any_of(diagnostic.labels.begin(), diagnostic.labels.end(), [&](const grammar::Label& other) {
+        return other.span == shown.span && other.text == shown.text;  // both halves come of one statement
+      });
+      if (!again) diagnostic.labels.push_back(shown);
     }
     if (caller != nullptr) show_caller(diagnostic, *caller);
     if (diagnostic.help.empty()) diagnostic.help = grammar::remedy_of(diagnostic.code);

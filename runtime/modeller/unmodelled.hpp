@@ -9,4 +9,8 @@ namespace garment::modeller {
 /// place in the script. A model of such a garment is refused: it would be another garment than the declared one.
 Findings find_unmodelled(const design::Garment& garment, Severity severity = Severity::error);
 
+/// The findings with those of G0460 drawn together into the first of them, which names all and has a label at each place: what
+/// a person reads. Two places or fewer stay as they are.
+Findings in_one(const Findings& findings);
+
 }  // namespace garment::modeller
