@@ -148,20 +148,34 @@ class LengthCheck {
     return "`" + relation_for(inside / flat, part.clause->word.text == "gather") + "` on that part would fit";
   }
 
+  /// The side as it is written: what can be pasted into the seam, of both halves too.
+  std::string written(const SeamSideDraft& side) const { return std::string(program_.sources.text(side.expr->span)); }
+
+  /// `written` with the relation that makes it fit; `ratio` is its length over that of the seam.
+  std::string with_relation(const SeamSideDraft& side, double ratio, bool gathered) const {
+    return "`" + written(side) + ' ' + relation_for(ratio, gathered) + "`";
+  }
+
   std::string remedy() const {
     if (other_ <= 0 || length_ <= 0) return "a side has no length";
+    if (stated() && side_.parts.empty() && last_.parts.empty() && std::fabs(length_ - other_) <= kPlainTolerance) {
+      const std::string one = relation_text(side_), two = relation_text(last_);
+      return "the sides are as long without it: leave `" + (one.empty() ? two : one) + "` out";
+    }
     if (side_.parts.size() == 1 && !last_.related()) return part_remedy();
     const double ratio = length_ / other_ * last_.factor;  // of this side, the other's relation kept
+    const bool longer = length_ > other_;
+    const SeamSideDraft& related = side_.relation != nullptr ? side_ : last_;
+    const bool one_related = (side_.relation != nullptr) != (last_.relation != nullptr) && side_.parts.empty() && last_.parts.empty();
+    if (one_related && related.factor > 1 && (&related == &side_) != longer)
+      return "`" + relation_text(related) + "` stands at the shorter side; it belongs to the longer one: " +
+             with_relation(longer ? side_ : last_, longer ? length_ / other_ : other_ / length_, related.relation->word.text == "gather");
     if (side_.relation != nullptr && !last_.related())
       return "`" + relation_for(ratio, side_.relation->word.text == "gather") + "` would fit";
-    const std::string name = show(Value{side_.edge});
-    if (ratio > 1.3)
-      return "make the sides alike, or gather: `" + name + ' ' + relation_for(ratio, true) + "`";
-    if (ratio > 1)
-      return "make the sides alike, or state the difference: `" + name + ' ' + relation_for(ratio, false) +
-             "`";
-    return "make the sides alike, or state the difference on the longer side: `" + show(Value{last_.edge}) +
-           " ease " + percent(last_.factor / ratio - 1) + "`";
+    if (ratio > 1.3) return "make the sides alike, or gather: " + with_relation(side_, ratio, true);
+    if (ratio > 1) return "make the sides alike, or state the difference: " + with_relation(side_, ratio, false);
+    return "make the sides alike, or state the difference on the longer side: `" + written(last_) + " ease " +
+           percent(last_.factor / ratio - 1) + "`";
   }
 
   Program& program_;
