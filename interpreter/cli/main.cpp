@@ -168,7 +168,7 @@ int main(int argc, char** argv) {
   if (*format_command) return format(o.format, host, terminal);
   if (*import_command) return import_pattern(o.import_options, host, terminal);
   if (*reference_command) {
-    terminal.result(o.textmate ? garment::service::textmate_grammar() : reference_page(app));
+    terminal.result(o.textmate ? garment::service::textmate_grammar() : reference_page(app, GARMENT_STDLIB_DIR, host));
     return kOk;
   }
   if (*limits_command) return show_limits(terminal);

@@ -1,5 +1,6 @@
 #include "interpreter/cli/reference_page.hpp"
 
+#include "interpreter/cli/reference_library.hpp"
 #include "interpreter/language/construct_table.hpp"
 
 namespace garment::cli {
@@ -36,8 +37,8 @@ std::string command_text(const CLI::App& command) {
 
 }  // namespace
 
-std::string reference_page(const CLI::App& app) {
-  std::string text = interpreter::reference_markdown() + "## Commands\n\n";
+std::string reference_page(const CLI::App& app, const std::string& stdlib_dir, Host& host) {
+  std::string text = interpreter::reference_markdown() + library_chapter(stdlib_dir, host) + "## Commands\n\n";
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
     text += command_text(*command);
   return text +
