@@ -94,17 +94,6 @@ struct Run {
     code = std::max(code, exit_code_of(report.drape.status));
   }
 
-  /// A question before any drape would be answered from the flat start, and pass.
-  bool refuse_before_drape(const interpreter::Act& act, const char* keyword) {
-    if (draped) return false;
-    grammar::Diagnostic d = plain_error("G0325", fmt::format("`{}` stands before any `drape`, so there is nothing to ask", keyword),
-                                        "write `drape until rest` above it");
-    d.labels.push_back({act.span, ""});
-    show({d}, project.sources, terminal);
-    code = kDiagnostics;
-    return true;
-  }
-
   /// The holds of the garment without what was released; all else of the model stays.
   void release(const interpreter::ReleaseAct& act) {
     if (act.pin >= 0) holding.pins[static_cast<std::size_t>(act.pin)].panel = -1;
@@ -136,7 +125,6 @@ struct Run {
   }
 
   void expect(const interpreter::Act& act) {
-    if (refuse_before_drape(act, "expect")) return;
     session::DrapeAnswers answers(project.result.garment, project.result.bodies, model, state, report.drape);
     interpreter::ExpectResult r = interpreter::evaluate_expect(project.result, act, answers);
     show(r.diagnostics, project.sources, terminal);
@@ -149,7 +137,7 @@ struct Run {
   }
 
   void measure(const interpreter::Act& act) {
-    if (refuse_before_drape(act, "measure")) return;
+    if (!draped) return;  // of the rounds of a study
     session::DrapeAnswers answers(project.result.garment, project.result.bodies, model, state, report.drape);
     interpreter::MeasureResult r = interpreter::evaluate_measure(project.result, act, answers);
     show(r.diagnostics, project.sources, terminal);
@@ -201,6 +189,8 @@ ExitCode run_script(const RunOptions& options, results::Report& report, bool& re
   Project project;
   if (ExitCode code = load(project, options.project, host, terminal); code != kOk) return code;
   watch.lap("evaluate");
+  // A question before any drape would be answered from the flat start, and pass.
+  if (!check_acts(project, false, terminal)) return kDiagnostics;
   std::optional<model::Model> model = build_model(project, terminal);
   if (!model) return kDiagnostics;
   watch.lap("model");

@@ -46,9 +46,18 @@ std::vector<std::string> questions_of(const std::vector<Round>& rounds) {
   return {};
 }
 
+/// The measures of the script, in the order of the first round that has them.
+std::vector<results::MeasureOutcome> measures_of(const std::vector<Round>& rounds) {
+  for (const Round& round : rounds)
+    if (!round.report.stated_measures.empty()) return round.report.stated_measures;
+  return {};
+}
+
 std::string table_of(const std::string& target, const std::vector<Round>& rounds) {
   const std::vector<std::string> questions = questions_of(rounds);
   std::string table = cell(target) + ",status,particles,steps,largest_strain";
+  const std::vector<results::MeasureOutcome> measures = measures_of(rounds);
+  for (const results::MeasureOutcome& m : measures) table += ',' + cell(m.unit.empty() ? m.name : m.name + " [" + m.unit + "]");
   for (const std::string& question : questions) table += ',' + cell(question);
   table += '\n';
   for (const Round& round : rounds) {
@@ -56,6 +65,11 @@ std::string table_of(const std::string& target, const std::vector<Round>& rounds
     table += cell(round.value) + ',' + (r.particles == 0 ? "refused" : results::status_name(r.drape.status)) + ',' +
              std::to_string(r.particles) + ',' + std::to_string(r.drape.steps) + ',' +
              number_cell(r.strain.all.any.largest);
+    for (std::size_t k = 0; k < measures.size(); ++k) {
+      table += ',';
+      if (k >= r.stated_measures.size()) continue;
+      table += r.stated_measures[k].value ? number_cell(*r.stated_measures[k].value) : cell(r.stated_measures[k].shown);
+    }
     for (std::size_t k = 0; k < questions.size(); ++k) {
       table += ',';
       if (k >= r.expects.size()) continue;

@@ -179,6 +179,9 @@ Interpretation interpret(grammar::Sources& sources, grammar::SourceId source, Ho
   for (const auto& body : program.built) result.bodies.push_back(body != nullptr ? *body : body::Body{});
   result.garment = program.garment;
   result.acts = options.study ? program.study_acts : program.acts;
+  if (options.study)  // what the script measures is asked in each round
+    for (const Act& act : program.acts)
+      if (std::holds_alternative<MeasureAct>(act.act)) result.acts.push_back(act);
   result.parameters = program.parameters;
   result.measures = program.measures;
   result.solved = program.solved;

@@ -69,6 +69,25 @@ std::vector<Act> acts_of(Program& program, const Statement& statement, Scope& sc
   return put_back();
 }
 
+/// The values that an operand of `over` stands for, each as text: itself, or the numbers of a list.
+std::vector<std::string> texts_of(Program& program, const Value& value, const Expr& expr) {
+  if (value.as<RangeValue>() != nullptr)
+    fail(program, Message("G0306", "a range where `over` takes values", expr.span)
+                      .help("say how far apart they are: `steps(" + std::string(program.sources.text(expr.span)) + ", STEP)`"));
+  const auto* list = value.as<ListValue>();
+  if (list == nullptr) return {std::string(program.sources.text(expr.span))};
+  std::vector<std::string> texts;
+  for (const Value& item : **list) {
+    const auto* q = item.as<Quantity>();
+    if (q == nullptr)
+      fail(program, Message("G0306", kind_of(item) + " in a list of values; a list in `over` holds numbers", expr.span)
+                        .help("write the values one by one: `over A, B`"));
+    texts.push_back(format_quantity(q->value, q->dimension, q->percent, 12));
+    if (texts.size() > kMostValues) break;  // told as too many
+  }
+  return texts;
+}
+
 }  // namespace
 
 void run_release(Program& program, const Item& item) {
@@ -132,13 +151,16 @@ void run_vary(Program& program, const Item& item) {
   act.target = std::string(program.sources.text(target.span));
   if (over.clause->values.empty())
     fail(program, Message("G0312", "`over` needs values", over.clause->span).help("as in `over 0.2, 1, 5`"));
-  for (const Expr& value : over.clause->values) {
-    eval(program, value, scope);
-    act.values.emplace_back(program.sources.text(value.span));
-    for (std::size_t k = 0; k + 1 < act.values.size(); ++k)
-      if (act.values[k] == act.values.back())
-        fail(program, Message("G1323", "`" + act.values.back() + "` stands twice in `over`", value.span)
-                          .also(over.clause->values[k].span, "first here"));
+  std::vector<Span> stated;
+  for (const Expr& expr : over.clause->values) {
+    const Value value = eval(program, expr, scope);
+    for (std::string& text : texts_of(program, value, expr)) {
+      for (std::size_t k = 0; k < act.values.size(); ++k)
+        if (act.values[k] == text)
+          fail(program, Message("G1323", "`" + text + "` stands twice in `over`", expr.span).also(stated[k], "first here"));
+      act.values.push_back(std::move(text));
+      stated.push_back(expr.span);
+    }
   }
   if (act.values.size() > kMostValues)
     fail(program, Message("G1324", std::to_string(act.values.size()) + " values; a study has 100 at most",

@@ -304,6 +304,27 @@ ok
 [ "$(grep -c 'at_rest\|at rest' study_out/study_wide.csv)" -eq 2 ] || fail "the table of the study has not two rows: $(cat study_out/study_wide.csv)"
 ok
 cmp -s study_out/wide=8cm/cloth.obj study_out/wide=12cm/cloth.obj && fail "both rounds are the same"
+# What the script measures is asked in each round and stands in the table; a list gives its numbers.
+sed 's/over 8 cm, 12 cm/over steps(8 cm .. 12 cm, 2 cm)/' study.garment >study_list.garment
+echo 'measure heavy = mass(cloth)' >>study_list.garment
+run 0 run study_list.garment --no-pictures -o study_list
+head -1 study_list/study_wide.csv | grep -q ',heavy \[kg\],' || fail "the table of the study lacks the measure: $(cat study_list/study_wide.csv)"
+ok
+[ "$(grep -c 'at rest' study_list/study_wide.csv)" -eq 3 ] || fail "steps() gives not three rounds: $(cat study_list/study_wide.csv)"
+ok
+# A question before any drape is refused before anything is draped.
+{ cat study.garment; echo 'expect mass < 1 kg'; } >early.garment
+run 1 run early.garment --no-pictures -o early
+complains "G0325"
+[ ! -e early/study_wide.csv ] || fail "a script with a question before any drape was run"
+ok
+# Many things that cannot be modelled yet are one warning to a person, each its own to a program.
+run 0 check "$2/examples/lined_skirt.garment"
+[ "$(grep -c G0460 err.txt)" -eq 1 ] || fail "what cannot be modelled is told more than once"
+ok
+run 0 check "$2/examples/lined_skirt.garment" --json
+[ "$(grep -c '"G0460"' out.txt)" -gt 5 ] || fail "what cannot be modelled is drawn together in JSON too"
+ok
 sed 's/12 cm/120 cm/' study.garment >study_wrong.garment
 run 1 check study_wrong.garment
 complains "error[G0310]"
