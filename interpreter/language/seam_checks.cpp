@@ -1,6 +1,8 @@
 // Checks that need all seams: chains meet, rings close.
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <vector>
 
 #include "interpreter/language/edges.hpp"
 #include "interpreter/language/parts.hpp"
@@ -89,18 +91,58 @@ void join_ends(SeamCorners& corners, const std::vector<EdgePart>& a, const std::
   corners.join(corners.of(a.back(), true), corners.of(b.back(), true));
 }
 
+void join_sides(SeamCorners& corners, const SeamInfo& info) {
+  for (const design::SeamSide& side : info.seam.sides) join_ends(corners, side.parts, info.seam.sides[0].parts);
+}
+
+bool is_ring(SeamCorners& corners, const std::vector<EdgePart>& parts) {
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    if (corners.of(parts[k], true) != corners.of(parts[(k + 1) % parts.size()], false)) return false;
+  return true;
+}
+
+/// Joins the corners where seams begin and end. Where a ring that says `start at` begins is not known before it is settled:
+/// till then its ends join nothing, or the place where a side happens to begin would pass for a place on the others.
+/// Returns the seams settled so.
+std::set<const SeamInfo*> join_seams(Program& program, SeamCorners& corners) {
+  std::vector<SeamInfo*> waiting;
+  for (SeamInfo& info : program.seams) {
+    if (!info.ready) continue;
+    if (info.starts.empty())
+      join_sides(corners, info);
+    else
+      waiting.push_back(&info);
+  }
+  std::set<const SeamInfo*> settled;
+  auto settle = [&](SeamInfo* info) {
+    for (design::SeamSide& side : info->seam.sides) {
+      side.closed = is_ring(corners, side.parts);
+      if (!side.closed) return false;
+    }
+    PartGuard guard(program, info->part);
+    settle_rings(program, corners, *info);
+    join_sides(corners, *info);
+    settled.insert(info);
+    return true;
+  };
+  for (std::size_t before = waiting.size() + 1; waiting.size() < before && !program.has_error;) {
+    before = waiting.size();
+    std::erase_if(waiting, settle);
+  }
+  for (const SeamInfo* info : waiting) join_sides(corners, *info);
+  return settled;
+}
+
 }  // namespace
 
 void check_chains(Program& program) {
   SeamCorners corners(program);
   for (std::size_t p = 0; p < program.panels.size(); ++p) corners.join_legs(static_cast<int>(p));
-  for (const SeamInfo& info : program.seams)
-    for (const design::SeamSide& side : info.seam.sides)
-      if (info.ready) join_ends(corners, side.parts, info.seam.sides[0].parts);
   for (const design::Zip& zip : program.garment.zips)
     if (!zip.sides[0].empty() && !zip.sides[1].empty()) join_ends(corners, zip.sides[0], zip.sides[1]);
+  const std::set<const SeamInfo*> settled = join_seams(program, corners);
   for (SeamInfo& info : program.seams) {
-    if (!info.ready) continue;
+    if (!info.ready || settled.contains(&info)) continue;
     PartGuard guard(program, info.part);
     for (std::size_t k = 0; k < info.seam.sides.size(); ++k) {
       design::SeamSide& side = info.seam.sides[k];

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "interpreter/language/clauses.hpp"
 #include "interpreter/language/edges.hpp"
@@ -23,7 +24,7 @@ bool walked_as_drawn(const Program& program, const SeamSideDraft& side, std::siz
   return as_drawn != span.backwards;
 }
 
-/// Position of a named mark along the side as written.
+/// Position of a named mark along the side as written, of a mirrored one along its image.
 std::optional<double> mark_on(const Program& program, const SeamSideDraft& side, std::string_view name) {
   const double length = cut_length(side.edge);
   if (name == "start") return 0.0;
@@ -31,8 +32,10 @@ std::optional<double> mark_on(const Program& program, const SeamSideDraft& side,
   double done = 0;
   for (std::size_t k = 0; k < side.edge.spans.size(); ++k) {
     const EdgeSpan& span = side.edge.spans[k];
-    if (const auto at = notch_position(program, span, name))
-      return done + (walked_as_drawn(program, side, k) ? *at : cut_length(span) - *at);
+    if (const auto at = notch_position(program, span, name)) {
+      const double walked = done + (walked_as_drawn(program, side, k) ? *at : cut_length(span) - *at);
+      return side.mirrored ? length - walked : walked;
+    }
     done += cut_length(span);
   }
   return std::nullopt;
@@ -71,6 +74,11 @@ void take_range(Program& program, Scope& scope, const SeamSideDraft& side, const
                  side.edge.spans.size() > 1
                      ? "in a chain, parts run the way the chain is walked: counter-clockwise round each panel"
                      : "parts run in the drawn direction, from the smaller to the larger position"));
+  if (side.mirrored) {
+    std::swap(part.from, part.to);
+    part.from = length - part.from;
+    part.to = length - part.to;
+  }
 }
 
 double factor_of(const std::string& word, double x) {

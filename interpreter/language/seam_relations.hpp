@@ -23,6 +23,7 @@ struct SeamSideDraft {
   double factor = 1;                 ///< the side is this many times the seam
   std::vector<PartRelation> parts{};
   bool reversed = false;
+  bool mirrored = false;  ///< a chain of right halves, walked from the end of what was written; so run its ranges
 
   bool related() const { return relation != nullptr || !parts.empty(); }
 };

@@ -99,7 +99,45 @@ class SeamMaker {
     SeamSideDraft side;
     side.expr = &clause.values[0];
     side.edge = eval_edges(program_, *side.expr, scope_, "a side of a seam");
+    mirror(side);
     sides_.push_back(std::move(side));
+  }
+
+  /// A chain of right halves is the image of that of the left ones: what the left one walks first, counter-clockwise,
+  /// is what the right one comes to last.
+  void mirror(SeamSideDraft& side) {
+    if (scope_.half != "right" || side.edge.spans.size() < 2 || side.expr->kind != ExprKind::binary) return;
+    for (const EdgeSpan& span : side.edge.spans)
+      if (!is_image(span)) return;
+    std::vector<EdgeSpan> image;
+    take_image(*side.expr, image);
+    side.edge.spans = std::move(image);
+    side.mirrored = true;
+  }
+
+  /// Lies on the right half of a panel on the fold, or on the right panel of a pair.
+  bool is_image(const EdgeSpan& span) const {
+    if (program_.panels[static_cast<std::size_t>(span.panel)].folded) return true;
+    return std::any_of(program_.declarations.begin(), program_.declarations.end(), [&](const Declaration& d) {
+      return d.pair_left != nullptr && d.index == span.panel;
+    });
+  }
+
+  void take_image(const Expr& expr, std::vector<EdgeSpan>& image) {
+    if (expr.kind != ExprKind::binary || (expr.text != "+" && expr.text != "-")) {
+      const EdgeValue link = eval_edges(program_, expr, scope_, "a side of a seam");
+      image.insert(image.end(), link.spans.begin(), link.spans.end());
+      return;
+    }
+    if (expr.text == "+") {
+      take_image(expr.children[1], image);
+    } else {
+      EdgeValue link = eval_edges(program_, expr.children[1], scope_, "a side of a seam");
+      std::reverse(link.spans.begin(), link.spans.end());
+      for (EdgeSpan& span : link.spans) span.backwards = !span.backwards;
+      image.insert(image.end(), link.spans.begin(), link.spans.end());
+    }
+    take_image(expr.children[0], image);
   }
 
   /// Parts along the seam. The first side runs counter-clockwise, the others against it.

@@ -155,6 +155,59 @@ TEST_CASE("both, and halves") {
   refuses(kUse + half + "seam side: f.left.«sied» to q.left.side\n", "G0311", "did you mean `side`?");
 }
 
+TEST_CASE("a chain of right halves is the image of that of the left ones") {
+  // Front and back of a body with an armhole each, sleeves as a pair of tubes.
+  const std::string body =
+      std::string("panel front of fabrics.poplin on fold cf {\n outline from (0, 0) {\n edge hem to (20 cm, 0) free\n edge side to "
+      "(20 cm, 30 cm)\n edge armhole to (15 cm, 50 cm)\n edge shoulder to (0, 50 cm)\n close cf\n }\n}\n"
+      "panel back of fabrics.poplin like front { }\n") +
+      kForm + "place back on form.back with shoulder at form.shoulder\n";
+  const std::string sleeves =
+      "let wide = 2 * length(front.left.armhole)\n"
+      "pair panel sleeve of fabrics.poplin {\n outline from (0, 0) {\n edge cuff to (wide, 0) free\n edge under_a to "
+      "(wide, 20 cm)\n edge cap to (0, 20 cm)\n close under_b\n }\n}\n"
+      "both seam side: front.side to back.side\nboth seam shoulder: front.shoulder to back.shoulder\n"
+      "both seam under: sleeve.under_a to sleeve.under_b\n";
+  const std::string head = kUse + body + sleeves;
+  auto starts_at_side = [](const Trial& trial, std::size_t k) {
+    return std::fabs(start_of(trial, seam_of(trial, k).sides[1]).y() - 0.3) < 1e-12;
+  };
+  // Counter-clockwise the left armhole begins under the arm; so must the right one, which is walked back first.
+  const Trial plain(head + "both seam cap: sleeve.cap to front.armhole + back.armhole\n");
+  CHECK(seam_of(plain, 6).name == "cap.left");
+  CHECK(seam_of(plain, 6).sides[1].parts.front().panel == 1);  // the second side runs against the rule
+  CHECK(seam_of(plain, 7).sides[1].parts.front().panel == 0);
+  CHECK(starts_at_side(plain, 6));
+  CHECK(starts_at_side(plain, 7));
+  // Written from the shoulder, both begin there, unless the script says where.
+  const std::string turned = head + "both seam cap: sleeve.cap to back.armhole + front.armhole";
+  const Trial shoulder(turned + "\n");
+  CHECK_FALSE(starts_at_side(shoulder, 6));
+  CHECK_FALSE(starts_at_side(shoulder, 7));
+  const Trial stated(turned + " start at under, side\n");
+  CHECK(starts_at_side(stated, 6));
+  CHECK(starts_at_side(stated, 7));
+  // Open chains, `-`, and ranges.
+  const std::string strip =
+      "pair panel strip of fabrics.poplin {\n outline from (0, 0) {\n edge low to (20 cm, 0) free\n edge edge_a to (20 cm, "
+      "LONG)\n edge high to (0, LONG) free\n close edge_b free\n }\n}\nlet LONG = 30 cm + length(front.left.armhole)\n";
+  const Trial open(kUse + body + strip + "both seam shoulder: front.shoulder to back.shoulder\n" +
+                   "both seam j: strip.edge_a to front.side + front.armhole\n");
+  CHECK(seam_of(open, 2).sides[1].parts.size() == 2);
+  CHECK(seam_of(open, 3).sides[1].parts.size() == 2);
+  const Trial eased(head + "both seam cap: sleeve.cap to front.armhole ease 0% [start .. 5 cm] + back.armhole\n");
+  CHECK_FALSE(eased.result.ok());  // a relation follows its whole side
+  const Trial full(head +
+                   "both seam cap: sleeve.cap to front.armhole + back.armhole gather 1.001 [start .. 5 cm]\n");
+  for (std::size_t k : {6U, 7U}) {
+    const design::SeamSide& side = seam_of(full, k).sides[1];
+    const std::size_t at = k == 6 ? side.parts.size() - 1 : 0;  // on the front, under the arm
+    CHECK(side.parts[at].panel == 0);
+    CHECK(std::fabs(side.parts[at].to - side.parts[at].from) == Approx(0.05));
+    CHECK(side.fullness[at] == Approx(1.001));
+  }
+}
+
 TEST_CASE("what a seam may not be") {
   refuses(kTwo + "«seam» j: a.top\n", "G0507");
   refuses(kTwo + "seam j: «a» to b.top\n", "G0306", "its edges are");
