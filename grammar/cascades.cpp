@@ -29,11 +29,23 @@ bool ParseState::follows_from_earlier(const SyntaxError& error) const {
   };
   if (std::any_of(diagnostics_.begin(), diagnostics_.end(), stands_at)) return true;
   // One line, one slip: what follows a mistake is read on as well as may be, up to a `;`.
-  const auto in_line = [&](const Diagnostic& old) {
-    if (old.labels.empty() || old.labels[0].span.begin > place || line_of(old.labels[0].span.begin) != line_of(place)) return false;
-    return text_.substr(old.labels[0].span.begin, place - old.labels[0].span.begin).find(';') == std::string_view::npos;
+  const auto in_line = [&](const Label& old) {
+    if (old.span.begin > place || line_of(old.span.begin) != line_of(place)) return false;
+    return text_.substr(old.span.begin, place - old.span.begin).find(';') == std::string_view::npos;
   };
-  if (std::any_of(diagnostics_.begin(), diagnostics_.end(), in_line)) return true;
+  // What ends a line by mistake may belong to the next one, which is misread then.
+  const auto ends_line_before = [&](const Label& old) {
+    if (line_of(old.span.begin) + 1 != line_of(place)) return false;
+    std::size_t end = old.span.end;
+    while (end < text_.size() && is_blank(text_[end])) ++end;
+    return end >= text_.size() || text_[end] == '\n';
+  };
+  const auto covers = [&](const Diagnostic& old) {
+    const std::size_t n = old.code == "G0204" ? old.labels.size() : std::min<std::size_t>(1, old.labels.size());
+    return std::any_of(old.labels.begin(), old.labels.begin() + static_cast<std::ptrdiff_t>(n), in_line) ||
+           (old.code != "G0206" && n > 0 && ends_line_before(old.labels[0]));
+  };
+  if (std::any_of(diagnostics_.begin(), diagnostics_.end(), covers)) return true;
   // A block whose { is missing has its } all the same.
   const auto lacks_brace = [](const Diagnostic& old) { return old.code == "G0212"; };
   if (d.code == "G0205" && at(place) == '}' && std::any_of(diagnostics_.begin(), diagnostics_.end(), lacks_brace)) return true;
@@ -76,7 +88,7 @@ void ParseState::judge_nesting(const SyntaxError& error, std::size_t begin, std:
   std::size_t before = error.position;
   while (before > begin && is_blank(text_[before - 1])) --before;
   const bool closed_early = error.diagnostic.code == "G0208" && before > begin && text_[before - 1] == '}' &&
-                            !first_on_line(before - 1);
+                            (!first_on_line(before - 1) || keywords_.match(text_, error.position).keyword == nullptr);
   if (unbalanced || open != 0 || misplaced || stray || closed_early || is_brace(at(error.position)) ||
       (block_expected && !any))
     lose_nesting(line_of(std::max<std::size_t>(error.position, begin)));

@@ -103,13 +103,43 @@ bool repeats(const Diagnostic& earlier, const Diagnostic& later) {
          (tells_a_name(later) && earlier.code == later.code && earlier.message == later.message);
 }
 
+/// A name with a value in it, `piece_{n}`, was not made: the source of `d` has one that begins like the name it misses.
+bool may_be_made(const Diagnostic& d, const Sources& sources) {
+  const std::string_view name = sources.text(d.labels[0].span);
+  const std::string& text = sources[d.labels[0].span.source].text;
+  for (std::size_t n = 1; n < name.size(); ++n)
+    if (text.find(std::string(name.substr(0, n)) + '{') != std::string::npos) return true;
+  return false;
+}
+
+/// The line of `other`, also an unknown name, was to declare what `d` misses: the name stands in it before the mistake.
+bool was_to_declare(const Diagnostic& other, const Diagnostic& d, const Sources& sources) {
+  const std::string_view name = sources.text(d.labels[0].span);
+  if (d.labels[0].span.source != other.labels[0].span.source || !line_holds(other, name, sources)) return false;
+  const std::string& text = sources[other.labels[0].span.source].text;
+  const std::size_t at = text.rfind(name, other.labels[0].span.begin);
+  if (at == std::string::npos || at + name.size() >= other.labels[0].span.begin) return false;
+  return text.find('\n', at) > other.labels[0].span.begin;
+}
+
+/// Said in a block where an earlier mistake of syntax leaves open which statements are in it.
+bool in_misread_block(const Diagnostic& d, const Diagnostic& syntax, const Sources& sources) {
+  if (!is_syntax(syntax) || syntax.labels.empty()) return false;
+  if (d.code == "G0320") return true;  // an assignment may be lost
+  const grammar::Span &place = d.labels[0].span, &mistake = syntax.labels[0].span;
+  const bool indented = sources.place(place.source, place.begin).column > 1;
+  return tells_a_form(d) && indented && place.source == mistake.source && mistake.begin < place.begin;
+}
+
 /// An unknown name stands in the line of another error, here or where a library speaks of it; or the name of
 /// a refused declaration stands in the line of `d`.
 bool lost_its_declaration(const Diagnostic& d, const Diagnostics& all, const Sources& sources) {
   if (!is_error(d) || is_syntax(d) || d.labels.empty() || d.code == "G0302") return false;
   return std::any_of(all.begin(), all.end(), [&](const Diagnostic& other) {
-    if (!is_error(other) || other.labels.empty() || tells_a_name(other)) return false;
-    if (tells_a_name(d) && lost_in_syntax(d, other, sources)) return true;
+    if (!is_error(other) || other.labels.empty()) return false;
+    if (in_misread_block(d, other, sources)) return true;
+    if (tells_a_name(other)) return &other != &d && tells_a_name(d) && !same_place(other, d) && was_to_declare(other, d, sources);
+    if (tells_a_name(d) && (lost_in_syntax(d, other, sources) || (is_syntax(other) && may_be_made(d, sources)))) return true;
     if (other.code == "G0302") return line_holds(d, sources.text(other.labels[0].span), sources);
     return tells_a_name(d) && std::any_of(d.labels.begin(), d.labels.end(), [&](const grammar::Label& label) {
              return line_holds(other, sources.text(label.span), sources);

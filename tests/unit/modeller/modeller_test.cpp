@@ -124,7 +124,8 @@ TEST_CASE("a grid too coarse says which resolution fits, and that one does") {
   modeller::ModelResult r = modeller::build_model(g, {});
   REQUIRE(r.findings.size() == 1);
   CHECK(r.findings[0].code == "G0451");
-  double fits = std::stod(r.findings[0].help.substr(std::string("a resolution of ").size())) / 1000;
+  const std::string& help = r.findings[0].help;  // "state `sheet.resolution = 9.3 mm`"
+  double fits = std::stod(help.substr(help.find("= ") + 2)) / 1000;
   CHECK(found(sheet(0.3, 0.02, fits)) == "");
 }
 
