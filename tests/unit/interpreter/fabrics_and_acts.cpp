@@ -58,13 +58,13 @@ ExpectResult ask(const std::string& expect) {
 }  // namespace
 
 TEST_CASE("figures that no drape uses are told in a script, not in a library") {
-  const Trial told(kUse + "fabric mine = fabrics.denim with { two_HB = 0.03 gf*cm/cm, damping = 10 ms }\n");
+  const Trial told(std::string("use fabrics\n") + "fabric mine = fabrics.denim with { two_HB = 0.03 gf*cm/cm, damping = 10 ms }\n");
   REQUIRE(told.result.diagnostics.size() == 1);
   CHECK(told.result.diagnostics[0].code == "G0461");
   CHECK(told.result.diagnostics[0].severity == Severity::note);
   CHECK(told.result.diagnostics[0].message.starts_with("`two_HB` and `damping` are kept"));
   CHECK(told.result.diagnostics[0].labels.size() == 2);
-  CHECK(Trial(kUse + "fabric mine = fabrics.denim\n").result.diagnostics.empty());
+  CHECK(Trial(std::string("use fabrics\n") + "fabric mine = fabrics.denim\n").result.diagnostics.empty());
 }
 
 TEST_CASE("Kawabata figures become SI") {
