@@ -1,6 +1,7 @@
 #include "interpreter/language/cascades.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <string_view>
 
 namespace garment::interpreter {
@@ -131,13 +132,20 @@ bool in_misread_block(const Diagnostic& d, const Diagnostic& syntax, const Sourc
   return tells_a_form(d) && indented && place.source == mistake.source && mistake.begin < place.begin;
 }
 
+/// The argument that another error does not know is asked for again, as a property: "part `x` has no `wide`".
+bool is_unknown_argument(const Diagnostic& d, const Diagnostic& other) {
+  if (d.code != "G1224" || other.code != "G0307") return false;
+  const std::size_t at = d.message.rfind(" `");
+  return at != std::string::npos && other.message.ends_with(d.message.substr(at));
+}
+
 /// An unknown name stands in the line of another error, here or where a library speaks of it; or the name of
 /// a refused declaration stands in the line of `d`.
 bool lost_its_declaration(const Diagnostic& d, const Diagnostics& all, const Sources& sources) {
   if (!is_error(d) || is_syntax(d) || d.labels.empty() || d.code == "G0302") return false;
   return std::any_of(all.begin(), all.end(), [&](const Diagnostic& other) {
     if (!is_error(other) || other.labels.empty()) return false;
-    if (in_misread_block(d, other, sources)) return true;
+    if (in_misread_block(d, other, sources) || is_unknown_argument(d, other)) return true;
     if (tells_a_name(other)) return &other != &d && tells_a_name(d) && !same_place(other, d) && was_to_declare(other, d, sources);
     if (tells_a_name(d) && (lost_in_syntax(d, other, sources) || (is_syntax(other) && may_be_made(d, sources)))) return true;
     if (other.code == "G0302") return line_holds(d, sources.text(other.labels[0].span), sources);
@@ -154,20 +162,46 @@ bool tells_of_another(const Diagnostic& d, const Diagnostics& all) {
          });
 }
 
-/// Assertions that do not hold have one cause more often than several: the first is the error and shows the others.
-void join_assertions(Diagnostics& diagnostics) {
-  constexpr std::string_view kAssertion = "G0320";
-  const auto first = std::find_if(diagnostics.begin(), diagnostics.end(),
-                                  [&](const Diagnostic& d) { return is_error(d) && d.code == kAssertion; });
-  if (first == diagnostics.end()) return;
-  for (auto other = first + 1; other != diagnostics.end();) {
-    if (other->code != kAssertion) {
-      ++other;
-      continue;
-    }
-    if (!other->labels.empty()) first->labels.push_back({other->labels[0].span, "nor this: " + other->labels[0].text});
-    other = diagnostics.erase(other);
+/// What makes errors of one code one mistake: nothing more for assertions, which have one cause more often than several;
+/// the panel for points beside it, the difference for seams. Nothing for other codes.
+std::optional<std::string_view> kind_of_mistake(const Diagnostic& d) {
+  const std::string_view message = d.message;
+  const auto from = [&](std::string_view lead) -> std::optional<std::string_view> {
+    const std::size_t at = message.find(lead);
+    if (at == std::string_view::npos) return std::nullopt;
+    const std::string_view rest = message.substr(at);
+    return rest.substr(0, rest.find(" on the "));
+  };
+  if (!is_error(d) || d.labels.empty()) return std::nullopt;
+  if (d.code == "G0320") return "";
+  if (d.code == "G0613") return from(" lies outside");
+  return d.code == "G0501" ? from("` is ") : std::nullopt;
+}
+
+/// The first of such errors shows the others.
+void join_alike(Diagnostics& diagnostics) {
+  Diagnostics joined;
+  for (Diagnostic& d : diagnostics) {
+    const auto kind = kind_of_mistake(d);
+    const auto first = std::find_if(joined.begin(), joined.end(), [&](const Diagnostic& other) {
+      return kind && other.code == d.code && kind_of_mistake(other) == kind;
+    });
+    if (first == joined.end())
+      joined.push_back(std::move(d));
+    else
+      first->labels.push_back({d.labels[0].span, d.code == "G0320" ? "nor this: " + d.labels[0].text : "the same here"});
   }
+  diagnostics = std::move(joined);
+}
+
+/// A figure that goes wrong below an assertion that does not hold: the assertion says why.
+bool is_asserted(const Diagnostic& d, const Diagnostics& all) {
+  constexpr std::string_view kFigures[] = {"G0309", "G0346", "G0402", "G0403", "G0407", "G0408", "G0413", "G0501"};
+  if (d.labels.empty() || std::find(std::begin(kFigures), std::end(kFigures), d.code) == std::end(kFigures)) return false;
+  return std::any_of(all.begin(), all.end(), [&](const Diagnostic& other) {
+    return is_error(other) && other.code == "G0320" && !other.labels.empty() &&
+           other.labels[0].span.source == d.labels[0].span.source && other.labels[0].span.begin < d.labels[0].span.begin;
+  });
 }
 
 }  // namespace
@@ -186,10 +220,11 @@ void drop_cascades(Diagnostics& diagnostics, const Sources& sources) {
   for (std::size_t k = 0; k < all.size(); ++k) {
     const bool repeated = std::any_of(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(k),
                                       [&](const Diagnostic& earlier) { return repeats(earlier, all[k]); });
-    if (!follows_syntax(all[k]) && !repeated && !tells_of_another(all[k], all) && !lost_its_declaration(all[k], all, sources))
+    if (!follows_syntax(all[k]) && !repeated && !tells_of_another(all[k], all) && !is_asserted(all[k], all) &&
+        !lost_its_declaration(all[k], all, sources))
       diagnostics.push_back(all[k]);
   }
-  join_assertions(diagnostics);
+  join_alike(diagnostics);
 }
 
 }  // namespace garment::interpreter
