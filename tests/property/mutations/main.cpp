@@ -29,7 +29,7 @@ using namespace garment;
 using namespace garment::mutations;
 namespace fs = std::filesystem;
 
-constexpr int kMaxSeconds = 5;  // of the processor, for one mutant
+constexpr int kMaxSeconds = 30;  // of the processor, for one mutant: a cap of 52 m makes a million particles
 
 std::string current;  // the mutant at work, for the handler
 
