@@ -10,6 +10,7 @@
 
 #include "interpreter/repl/line_editor.hpp"
 #include "interpreter/session/session.hpp"
+#include "runtime/base/folder.hpp"
 #include "runtime/base/interrupt.hpp"
 #include "runtime/base/number.hpp"
 
@@ -90,6 +91,7 @@ session::SessionOptions session_options(const ReplOptions& options, Host& host, 
   made.color = color;
   made.timing = !options.plain;
   made.max_steps = options.max_steps;
+  made.folder_entries = folder_entries;
   made.progress = [&progress](const simulator::DrapeProgress& p) { progress.show(p); };
   made.interrupted = [&host] { return host.interrupted(); };
   return made;

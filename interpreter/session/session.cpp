@@ -48,7 +48,7 @@ Answer Session::open(const std::string& file) {
   stage_ = Stage{};
   stage_.text = std::move(*text.value);
   stage_.evaluated = workshop_.evaluate(stage_.text);
-  stage_.modelled = std::make_shared<Modelled>(workshop_.build(*stage_.evaluated));
+  stage_.modelled = std::make_shared<Modelled>(workshop_.build(*stage_.evaluated, {}));
   Answer answer;
   answer.text = shown(stage_.evaluated->result.diagnostics, stage_.evaluated->sources, Severity::warning) +
                 shown(stage_.modelled->diagnostics, stage_.evaluated->sources, Severity::warning);
@@ -115,12 +115,12 @@ void Session::shed(Stage& stage) {
 /// The model as it starts, where an edit of the hanging garment left that out.
 void Session::dress() {
   if (stage_.modelled->model && !stage_.modelled->dressed)
-    stage_.modelled = std::make_shared<Modelled>(workshop_.build(*stage_.evaluated));
+    stage_.modelled = std::make_shared<Modelled>(workshop_.build(*stage_.evaluated, stage_.released));
 }
 
 Stage Session::restored(Stage stage) {
   if (!stage.evaluated) stage.evaluated = workshop_.evaluate(stage.text);
-  if (!stage.modelled) stage.modelled = std::make_shared<Modelled>(workshop_.build(*stage.evaluated));
+  if (!stage.modelled) stage.modelled = std::make_shared<Modelled>(workshop_.build(*stage.evaluated, stage.released));
   return stage;
 }
 

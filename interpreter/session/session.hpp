@@ -23,6 +23,8 @@ struct SessionOptions {
   bool color = false;     ///< of diagnostics
   bool timing = true;     ///< say how long things took; off for text that must not change from run to run
   int max_steps = 0;      ///< of a drape; 0: the simulator's own limit
+  std::function<std::vector<std::string>(const std::string& folder)>
+      folder_entries;  ///< what lies in a folder, see runtime/base/folder.hpp; may be empty: then names of files are not completed
   std::function<void(const simulator::DrapeProgress&)>
       progress;                       ///< called between steps of a drape; may be empty
   std::function<bool()> interrupted;  ///< asked between steps of a drape; may be empty
@@ -104,9 +106,10 @@ class Session {
 
   // session_acts.cpp
   Answer act(const Entry& entry);
-  Answer run_acts(Evaluated& evaluated, std::size_t from);
+  Answer run_acts(Evaluated& evaluated, const std::vector<interpreter::Act>& acts);
   Answer perform(Evaluated& evaluated, const interpreter::Act& act);
   Answer drape_now(simulator::Settle settle);
+  Answer release(const std::string& name);
   Answer save_files(const interpreter::SaveAct& act);
   Outcome drape(Stage& stage, bool from_present, std::string& text);
   Outcome carry_on(const Stage& before, Stage& stage, std::string& text);
@@ -121,6 +124,7 @@ class Session {
   Answer load(const std::string& file);
   Answer reload();
   Answer remove(const std::string& name);
+  void start_again(const std::string& entry);
   Answer run_script();
   Answer reset_shape();
   Answer view(std::string file);

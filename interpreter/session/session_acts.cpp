@@ -8,9 +8,11 @@
 #include "interpreter/session/result_files.hpp"
 #include "interpreter/session/session.hpp"
 #include "runtime/base/number.hpp"
+#include "runtime/modeller/reshape.hpp"
 #include "runtime/modeller/transfer.hpp"
 #include "runtime/results/report.hpp"
 #include "runtime/results/strain.hpp"
+#include "runtime/simulator/certificate.hpp"
 #include "runtime/simulator/drape_again.hpp"
 #include "runtime/simulator/drape_levels.hpp"
 
@@ -34,6 +36,21 @@ std::string summary(const model::Model& model, const model::State& state,
                      cuts == 0 ? "nothing intersects" : fmt::format("{} intersections", cuts));
 }
 
+/// The shape of `before` on the model of `stage`, every part of the cloth at its new size. Where that makes the cloth
+/// cut itself it lies as it did, squeezed or stretched.
+model::State carried_state(const Stage& before, const Stage& stage) {
+  const model::Model& model = *stage.modelled->model;
+  const modeller::ModelledGarment was{before.evaluated->result.garment, *before.modelled->model},
+      is{stage.evaluated->result.garment, model};
+  const modeller::Transferred laid = modeller::transfer(was, before.shape.state->position, is);
+  model::State state;
+  state.velocity.assign(model.n_particles(), Eigen::Vector3d::Zero());
+  state.position = modeller::reshape(was, before.shape.state->position, is, laid, stage.evaluated->result.bodies);
+  if (state.position != laid.position && simulator::certify(model, state, {}).self_intersections > 0)
+    state.position = laid.position;
+  return state;
+}
+
 }  // namespace
 
 Answer Session::act(const Entry& entry) {
@@ -42,8 +59,12 @@ Answer Session::act(const Entry& entry) {
       return refuse(
           "G1503", fmt::format("`{}` stands among acts in one entry", statement.keyword.text),
           "type it as an entry of its own: declarations are written into the script, acts run at once");
-  // Understood as if it stood at the end of the script; the script itself stays as it is.
+  // Understood as if it stood at the end of the script; the script itself stays as it is. What the script would release
+  // is released only where `:run` came to it.
   Patch patch(stage_.text + "\n");
+  const grammar::Block& script = stage_.evaluated->result.script->statements;
+  for (std::size_t k = script.size(); k-- > 0;)
+    if (script[k].keyword.text == "release") patch.remove({script[k].span.begin, script[k].span.end});
   const std::uint32_t end = static_cast<std::uint32_t>(patch.text().size());
   patch.insert(end, "", {entry.text, 0}, "\n");
   const std::shared_ptr<Evaluated> evaluated = workshop_.evaluate(patch.text());
@@ -52,17 +73,17 @@ Answer Session::act(const Entry& entry) {
   if (!evaluated->result.ok())
     return {Outcome::refused, shown(diagnostics, evaluated->sources, Severity::error)};
   acts_entry_ = entry.text;
-  Answer answer = run_acts(*evaluated, stage_.evaluated->result.acts.size());
+  std::vector<Act> acts = evaluated->result.acts;
+  std::erase_if(acts, [&](const Act& act) {
+    return act.span.source != evaluated->source || !patch.in_entry({act.span.begin, act.span.end});
+  });
+  Answer answer = run_acts(*evaluated, acts);
   if (answer.outcome == Outcome::done && answer.text.empty()) answer.text = "ok\n";  // an `assert` that holds
   return answer;
 }
 
-Answer Session::run_acts(Evaluated& evaluated, std::size_t from) {
+Answer Session::run_acts(Evaluated& evaluated, const std::vector<Act>& acts) {
   Answer all;
-  // The acts may lie in a copy of the vector that a drape's new stage does not touch.
-  const std::vector<Act> acts(evaluated.result.acts.begin() +
-                                  static_cast<std::ptrdiff_t>(std::min(from, evaluated.result.acts.size())),
-                              evaluated.result.acts.end());
   for (const Act& act : acts) {
     const Answer one = perform(evaluated, act);
     all.text += one.text;
@@ -84,11 +105,23 @@ Answer Session::perform(Evaluated& evaluated, const Act& act) {
     return drape_now(drape->settle);
   }
   if (const auto* save = std::get_if<interpreter::SaveAct>(&act.act)) return save_files(*save);
+  if (const auto* released = std::get_if<interpreter::ReleaseAct>(&act.act)) {
+    const design::Garment& garment = evaluated.result.garment;
+    return release(released->pin >= 0 ? garment.pins[static_cast<std::size_t>(released->pin)].name
+                                      : garment.scene.clamps[static_cast<std::size_t>(released->clamp)].name);
+  }
+  if (std::holds_alternative<interpreter::RecordAct>(act.act))
+    return refuse("G1325", "a curve cannot be recorded yet", "leave `record` out for now");
+  const auto* vary = std::get_if<interpreter::VaryAct>(&act.act);
+  if (vary != nullptr)
+    return refuse("G1504",
+                  fmt::format("`vary` makes a script of each value of `{}` and writes a folder for each: `garment run` does that",
+                              vary->target),
+                  fmt::format("`:save` the script with its `vary` and run it; or try one value here: `{} = {}`", vary->target,
+                              vary->values.front()));
   const auto* expect = std::get_if<interpreter::ExpectAct>(&act.act);
   const auto* measure = std::get_if<interpreter::MeasureAct>(&act.act);
-  if (expect == nullptr && measure == nullptr)
-    return refuse("G1504", "this act runs in `garment run` only, not at the prompt",
-                  "save the script and run it");
+  if (expect == nullptr && measure == nullptr) return {};
   if (!stage_.shape.draped)
     return refuse("G0325", "nothing was draped yet, so there is nothing to ask",
                   "type `drape until rest` first");
@@ -114,6 +147,22 @@ Answer Session::drape_now(simulator::Settle settle) {
   answer.outcome = drape(next, stage_.shape.draped || stage_.shape.carried, answer.text);
   take(std::move(next));
   return answer;
+}
+
+/// Lets a pin or clamp go. The garment stays where it is until it is draped.
+Answer Session::release(const std::string& name) {
+  if (stage_.released.contains(name))
+    return refuse("G1320", fmt::format("`{}` is released already", name), "`:reset` and `:run` take hold of it again");
+  Stage next = stage_;
+  next.entry = acts_entry_;
+  next.released.insert(name);
+  next.modelled = std::make_shared<Modelled>(workshop_.build(*next.evaluated, next.released, next.modelled->dressed));
+  if (!next.modelled->model || next.modelled->model->n_particles() != next.shape.state->position.size())
+    return {Outcome::refused, shown(next.modelled->diagnostics, next.evaluated->sources, Severity::error)};
+  next.shape.carried = next.shape.draped || next.shape.carried;
+  next.shape.draped = false;
+  take(std::move(next));
+  return {Outcome::done, fmt::format("released {}; `drape until rest` shows where the garment goes\n", name)};
 }
 
 /// Drapes the stage from its shape: from the placed panels by way of coarser grids, else on from where it
@@ -152,12 +201,7 @@ Outcome Session::carry_on(const Stage& before, Stage& stage, std::string& text) 
     stage.shape.state = start_state(model);
     return Outcome::done;
   }
-  modeller::Transferred carried =
-      modeller::transfer({before.evaluated->result.garment, *before.modelled->model},
-                         before.shape.state->position, {stage.evaluated->result.garment, model});
-  auto state = std::make_shared<model::State>();
-  state->position = std::move(carried.position);
-  state->velocity.assign(model.n_particles(), Eigen::Vector3d::Zero());
+  auto state = std::make_shared<model::State>(carried_state(before, stage));
   stage.shape = {std::move(state), {}, before.shape.settle, false, true};
   if (automatic_) return drape(stage, true, text);
   text += "the shape was carried over; `drape until rest` brings it to rest\n";

@@ -131,30 +131,35 @@ Answer Session::remove(const std::string& name) {
   return answer;
 }
 
+/// The panels at their places, every pin and clamp held.
+void Session::start_again(const std::string& entry) {
+  dress();
+  Stage fresh = stage_;
+  fresh.entry = entry;
+  if (!fresh.released.empty()) {
+    fresh.released.clear();
+    fresh.modelled = std::make_shared<Modelled>(workshop_.build(*fresh.evaluated, {}));
+  }
+  fresh.shape = {start_state(*fresh.modelled->model), {}, simulator::Settle::equilibrium, false, false};
+  take(std::move(fresh));
+}
+
 Answer Session::run_script() {
   if (!stage_.modelled->model)
     return refuse("G1504", "there is no model to drape or ask", "`:warnings` says why");
   if (stage_.evaluated->result.acts.empty())
     return refuse("G1504", "the script has no acts", "type `drape until rest`");
-  dress();
-  Stage fresh = stage_;
-  fresh.entry = acts_entry_ = ":run";
-  fresh.shape = {start_state(*fresh.modelled->model), {}, simulator::Settle::equilibrium, false, false};
-  take(std::move(fresh));
+  start_again(acts_entry_ = ":run");
   const std::size_t steps = undo_.size();
   const std::shared_ptr<Evaluated> evaluated = stage_.evaluated;
-  const Answer answer = run_acts(*evaluated, 0);
+  const Answer answer = run_acts(*evaluated, evaluated->result.acts);
   while (undo_.size() > steps) undo_.pop_back();  // one step to undo, however many drapes
   return answer;
 }
 
 Answer Session::reset_shape() {
   if (!stage_.modelled->model) return refuse("G1504", "there is no model", "`:warnings` says why");
-  dress();
-  Stage fresh = stage_;
-  fresh.entry = ":reset";
-  fresh.shape = {start_state(*fresh.modelled->model), {}, simulator::Settle::equilibrium, false, false};
-  take(std::move(fresh));
+  start_again(":reset");
   return {Outcome::done, "the panels are back at their places\n"};
 }
 

@@ -14,6 +14,27 @@ void add_matching(std::vector<Proposal>& out, std::string_view word, std::string
     out.push_back({std::string(text), std::string(detail), word.size()});
 }
 
+/// The ending of the files that a command takes; empty where it takes none.
+std::string_view ending_for(std::string_view command) {
+  if (command == "load" || command == "save" || command == "save!") return ".garment";
+  return command == "view" ? ".png" : "";
+}
+
+/// Names in the folder that `path` has come to; of files only those with `ending`.
+void complete_path(const SessionOptions& options, std::string_view path, std::string_view ending,
+                   std::vector<Proposal>& out) {
+  if (!options.folder_entries) return;
+  if (!path.empty() && path.front() == '"') path.remove_prefix(1);
+  const std::size_t slash = path.rfind('/');
+  const std::string_view folder = slash == std::string_view::npos ? "" : path.substr(0, slash + 1);
+  const std::string_view word = path.substr(folder.size());
+  for (const std::string& name : options.folder_entries(std::string(folder))) {
+    if (name.front() == '.' && word.empty()) continue;
+    const bool fits = name.size() >= ending.size() && name.substr(name.size() - ending.size()) == ending;
+    if (fits || name.back() == '/') add_matching(out, word, name, "");
+  }
+}
+
 /// The words that an argument of a command may be; false where it is written as the language is.
 bool complete_argument(std::string_view command, std::string_view word, std::vector<Proposal>& out) {
   if (command == "help") {
@@ -39,7 +60,11 @@ std::vector<Proposal> Session::complete(const std::string& text) const {
       return out;
     }
     const std::string_view command = rest.substr(1, blank - 1);
-    rest.remove_prefix(blank + 1);
+    rest.remove_prefix(std::min(rest.size(), rest.find_first_not_of(' ', blank)));
+    if (const SessionCommand* found = find_command(command); found != nullptr && !ending_for(found->name).empty()) {
+      complete_path(options_, rest, ending_for(found->name), out);
+      return out;
+    }
     if (complete_argument(command, rest, out)) return out;
   }
   if (rest.find_first_of(" \t\n.([{=:") ==

@@ -134,6 +134,7 @@ Answer Session::commit(Patch patch, const std::string& entry, const std::vector<
   Stage next;
   next.text = patch.text();
   next.entry = entry;
+  next.released = stage_.released;
   next.evaluated = workshop_.evaluate(next.text);
   Evaluated& evaluated = *next.evaluated;
   const int errors = count_errors(evaluated.result.diagnostics);
@@ -148,7 +149,7 @@ Answer Session::commit(Patch patch, const std::string& entry, const std::vector<
   // A garment that hangs keeps its shape: where its panels would start is not asked.
   const bool quick = (stage_.shape.draped || stage_.shape.carried) && stage_.modelled->model &&
                      !start_matters(*stage_.modelled->model);
-  std::shared_ptr<Modelled> modelled = std::make_shared<Modelled>(workshop_.build(evaluated, !quick));
+  std::shared_ptr<Modelled> modelled = std::make_shared<Modelled>(workshop_.build(evaluated, next.released, !quick));
   grammar::Diagnostics of_model = news(modelled->diagnostics, stage_.modelled->diagnostics);
   show_as_typed(evaluated, of_model, patch, entry);
   const bool declares_only = std::all_of(edits.begin(), edits.end(), [](const ScriptEdit& e) {

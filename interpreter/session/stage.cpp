@@ -23,7 +23,7 @@ std::shared_ptr<Evaluated> Workshop::evaluate(const std::string& text) const {
   return evaluated;
 }
 
-Modelled Workshop::build(const Evaluated& evaluated, bool dress) const {
+Modelled Workshop::build(const Evaluated& evaluated, const Released& released, bool dress) const {
   Modelled modelled;
   const interpreter::Interpretation& result = evaluated.result;
   if (!result.ok() || result.garment.panels.empty()) return modelled;
@@ -34,13 +34,23 @@ Modelled Workshop::build(const Evaluated& evaluated, bool dress) const {
   }
   modeller::ModelOptions options;
   options.dress = dress;
-  modeller::ModelResult built = modeller::build_model(result.garment, result.bodies, options);
-  if (!dress && built.model && start_matters(*built.model)) return build(evaluated);
+  modeller::ModelResult built =
+      released.empty() ? modeller::build_model(result.garment, result.bodies, options)
+                       : modeller::build_model(less(result.garment, released), result.bodies, options);
+  if (!dress && built.model && start_matters(*built.model)) return build(evaluated, released);
   modelled.dressed = dress;
   modelled.diagnostics = interpreter::to_diagnostics(built.findings, result.origins);
   modelled.failed = has_errors(built.findings);
   if (!modelled.failed) modelled.model = std::move(built.model);
   return modelled;
+}
+
+design::Garment less(const design::Garment& garment, const Released& released) {
+  design::Garment left = garment;
+  const auto gone = [&](const auto& hold) { return released.contains(hold.name); };
+  std::erase_if(left.pins, gone);
+  std::erase_if(left.scene.clamps, gone);
+  return left;
 }
 
 bool start_matters(const model::Model& model) {

@@ -2,6 +2,7 @@
 // What a session is at one moment: the text, what it means, its model, and the shape it hangs in.
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "interpreter/language/interpret.hpp"
@@ -36,12 +37,19 @@ struct Shape {
   bool carried = false;  ///< carried over from a drape and not draped since
 };
 
+/// Names of pins and clamps that `release` let go.
+using Released = std::set<std::string>;
+
+/// The garment less the pins and clamps of these names.
+design::Garment less(const design::Garment& garment, const Released& released);
+
 struct Stage {
   std::string text;
   std::string entry;  ///< what was typed to come here; empty at the start
   std::shared_ptr<Evaluated> evaluated;
-  std::shared_ptr<const Modelled> modelled;
+  std::shared_ptr<const Modelled> modelled;  ///< without what was released
   Shape shape;
+  Released released;
 };
 
 /// How a session turns text into meaning.
@@ -54,7 +62,7 @@ struct Workshop {
 
   std::shared_ptr<Evaluated> evaluate(const std::string& text) const;
   /// `dress` as in modeller::ModelOptions; a model that holds particles where they start is always dressed.
-  Modelled build(const Evaluated& evaluated, bool dress = true) const;
+  Modelled build(const Evaluated& evaluated, const Released& released, bool dress = true) const;
 };
 
 /// Are particles held where they start?

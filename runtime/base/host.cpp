@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -15,6 +16,7 @@
 #include <utility>
 
 #include "runtime/base/access.hpp"
+#include "runtime/base/folder.hpp"
 #include "runtime/base/interrupt.hpp"
 
 namespace garment {
@@ -136,6 +138,18 @@ class SystemHost final : public Host {
 
 void survive_interrupts() { survives = 1; }
 void forget_interrupts() { interrupt_count = 0; }
+
+std::vector<std::string> folder_entries(const std::string& folder) {
+  namespace fs = std::filesystem;
+  std::vector<std::string> names;
+  std::error_code error;
+  for (fs::directory_iterator it(folder.empty() ? "." : folder, error), end; !error && it != end; it.increment(error)) {
+    std::error_code unknown;
+    names.push_back(it->path().filename().string() + (it->is_directory(unknown) ? "/" : ""));
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
 
 Host& system_host() {
   static SystemHost host;

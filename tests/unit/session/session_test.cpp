@@ -207,6 +207,66 @@ TEST_CASE("completion knows commands, the language and the script") {
   CHECK(has(texts(":set a"), "auto"));
 }
 
+TEST_CASE("completion knows the files that a command takes") {
+  SessionOptions options;
+  options.folder_entries = [](const std::string& folder) -> std::vector<std::string> {
+    if (folder == "old/") return {"coat.garment"};
+    if (!folder.empty()) return {};
+    return {".hidden/", "old/", "skirt.garment", "skirt.png", "square.garment"};
+  };
+  Prompt prompt(kSquare, options);
+  auto texts = [&](const std::string& entry) {
+    std::string all;
+    for (const Proposal& p : prompt.session.complete(entry)) all += p.text + ' ';
+    return all;
+  };
+  CHECK(texts(":load ") == "old/ skirt.garment square.garment ");
+  CHECK(texts(":load  sk") == "skirt.garment ");
+  CHECK(texts(":load \"old/c") == "coat.garment ");
+  CHECK(texts(":save! squ") == "square.garment ");
+  CHECK(texts(":view s") == "skirt.png ");
+  CHECK(texts(":load .h") == ".hidden/ ");
+  CHECK(prompt.session.complete(":load old/co")[0].replace == 2);
+}
+
+TEST_CASE("a pin that is released stays so until the panels are back at their places") {
+  Prompt prompt;
+  prompt.enter("drape until rest settle preview");
+  const std::string held = prompt.session.state_hash();
+  CHECK(has(prompt.enter("release one"), "released one"));
+  CHECK(prompt.session.stage().modelled->model->hold_particle.size() == 1);
+  CHECK(has(prompt.enter("release one", Outcome::refused), "error[G1320]"));
+  prompt.enter("drape until rest settle preview");
+  CHECK(prompt.session.state_hash() != held);
+  prompt.enter("wide = 11 cm");  // the model is made anew, without the pin
+  CHECK(prompt.session.stage().modelled->model->hold_particle.size() == 1);
+  CHECK_FALSE(has(prompt.text(), "release"));
+  prompt.enter(":undo 3");
+  CHECK(prompt.session.state_hash() == held);
+  CHECK(prompt.session.stage().modelled->model->hold_particle.size() == 2);
+  prompt.enter(":redo 2");
+  prompt.enter(":reset");
+  CHECK(prompt.session.stage().modelled->model->hold_particle.size() == 2);
+}
+
+TEST_CASE("the script's own release happens when it is run, not before") {
+  const std::string script = std::string(kSquare) + "release two\ndrape until rest settle preview\n";
+  Prompt prompt(script);
+  prompt.enter("drape until rest settle preview");
+  prompt.enter("release two");
+  prompt.enter("drape until rest settle preview");
+  const std::string hung = prompt.session.state_hash();
+  prompt.enter(":run");
+  CHECK(prompt.session.state_hash() == hung);
+  prompt.enter("release two", Outcome::refused);
+}
+
+TEST_CASE("acts that the prompt cannot do say who can") {
+  Prompt prompt;
+  CHECK(has(prompt.enter("vary wide over 5 cm, 6 cm { drape until rest }", Outcome::refused), "garment run"));
+  CHECK(has(prompt.enter("drape for 2 s", Outcome::refused), "error[G0804]"));
+}
+
 TEST_CASE("the script's own acts run from the placed panels, as one step") {
   Prompt prompt;
   const std::string start = prompt.session.state_hash();
