@@ -207,6 +207,9 @@ SyntaxError ParseState::unknown_statement(std::size_t at) const {
   if (c == '{')
     return error_at(found_span(at), "G0202", "a statement cannot begin with `{`",
                     "expected a keyword or a name", "the `{` of a block stands on the line of its keyword");
+  if (c == '/' && (this->at(at + 1) == '/' || this->at(at + 1) == '*'))
+    return error_at(found_span(at), "G0202", fmt::format("a statement cannot begin with {}", found(at)),
+                    "expected a keyword or a name", "a comment begins with `#`");
   if (word.empty())
     return error_at(
         found_span(at), "G0202", fmt::format("a statement cannot begin with {}", found(at)),

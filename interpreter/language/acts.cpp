@@ -16,6 +16,7 @@ constexpr double kSameNumber = 1e-9;  // relative; what `==` forgives without `w
 /// simulated.
 class AnyDrape : public DrapeMeasures {
  public:
+  bool stand_in() const override { return true; }
   std::optional<double> strain(const std::string&) const override { return 1; }
   std::optional<double> shear(const std::string&) const override { return 1; }
   std::optional<double> length(const std::vector<design::EdgePart>&) const override { return 1; }
@@ -165,6 +166,9 @@ void run_garment(Program& program, const Item& item) {
     fail(program, Message("G0312", "`garment` takes the edition and a title", statement.keyword.span)
                       .help("as in `garment 1 \"skirt\"`"));
   const Expr& edition = statement.operands[0];
+  if (edition.kind == ExprKind::string)
+    fail(program, Message("G0312", "`garment` takes the edition of the language before the title", edition.span)
+                      .help("write `garment 1 " + std::string(program.sources.text(edition.span)) + "`"));
   const Quantity q = eval_quantity(program, edition, scope, kNumber, "the edition");
   if (q.value != 1)
     report(program, Message("G0323",
@@ -231,6 +235,10 @@ void run_save(Program& program, const Item& item) {
   Scope& scope = *item.scope;
   SaveAct act;
   for (const Expr& operand : statement.operands) {
+    if (operand.kind == ExprKind::member || operand.kind == ExprKind::name)
+      if (const std::string text(program.sources.text(operand.span)); text.find('.') != std::string::npos)
+        fail(program, Message("G0306", "`" + text + "` where `save` takes a file name in quotes", operand.span)
+                          .help("write `save \"" + text + "\"`"));
     const std::string path = eval_text(program, operand, scope, "`save`");
     act.paths.push_back(writable_path(program, path, operand.span));
     const std::size_t slash = path.rfind('/'), dot = path.rfind('.');

@@ -108,8 +108,7 @@ class ButtonReader {
     if (clause.values.size() == 2 && !on_) return name_panel(clause.values[1], false);
     if (clause.values.size() > 1)
       fail(program_, Message("G0313", "`at` takes one point, here is more", clause.values[1].span)
-                         .help(did_you_mean(clause.values[1].text,
-                                            {"on", "at", "through", "mass", "diameter", "shank", "kind"})));
+                         .help(words_hint(*find_construct("button"), clause.values[1].text)));
   }
 
   void assign(Override& change) {

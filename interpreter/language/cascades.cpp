@@ -97,11 +97,19 @@ bool same_place(const Diagnostic& a, const Diagnostic& b) {
   return !a.labels.empty() && !b.labels.empty() && a.labels[0].span == b.labels[0].span;
 }
 
+/// The name that is not there, where the message says `there is nothing named` or `has no edge` and its like: the last in ticks.
+std::string lost_name(const Diagnostic& d) {
+  const std::size_t end = d.message.rfind('`');
+  if (end == std::string::npos || end + 1 != d.message.size() || end == 0) return "";
+  const std::size_t begin = d.message.rfind('`', end - 1);
+  return begin == std::string::npos ? "" : d.message.substr(begin + 1, end - begin - 1);
+}
+
 /// `later` says what `earlier`, above it in the text, has said.
 bool repeats(const Diagnostic& earlier, const Diagnostic& later) {
   if (!is_error(earlier) || !is_error(later) || later.code == "G0218") return false;  // that reading stopped is news
-  return same_place(earlier, later) ||
-         (tells_a_name(later) && earlier.code == later.code && earlier.message == later.message);
+  return same_place(earlier, later) || (tells_a_name(later) && earlier.code == later.code && earlier.message == later.message) ||
+         (tells_a_name(later) && tells_a_name(earlier) && !lost_name(later).empty() && lost_name(earlier) == lost_name(later));
 }
 
 /// A name with a value in it, `piece_{n}`, was not made: the source of `d` has one that begins like the name it misses.
@@ -148,7 +156,8 @@ bool lost_its_declaration(const Diagnostic& d, const Diagnostics& all, const Sou
     if (in_misread_block(d, other, sources) || is_unknown_argument(d, other)) return true;
     if (tells_a_name(other)) return &other != &d && tells_a_name(d) && !same_place(other, d) && was_to_declare(other, d, sources);
     if (tells_a_name(d) && (lost_in_syntax(d, other, sources) || (is_syntax(other) && may_be_made(d, sources)))) return true;
-    if (other.code == "G0302") return line_holds(d, sources.text(other.labels[0].span), sources);
+    if (other.code == "G0302" || (other.code == "G0303" && d.code != "G0303"))
+      return line_holds(d, sources.text(other.labels[0].span), sources);
     return tells_a_name(d) && std::any_of(d.labels.begin(), d.labels.end(), [&](const grammar::Label& label) {
              return line_holds(other, sources.text(label.span), sources);
            });

@@ -61,9 +61,15 @@ const BoundClause& Clauses::need(std::string_view word) {
 bool Clauses::flag(std::string_view word) {
   const BoundClause* found = find(word);
   if (found != nullptr && !found->clause->values.empty())
-    fail(program_,
-         Message("G0313", "`" + std::string(word) + "` stands alone here", found->clause->values[0].span));
+    fail_extra(Message("G0313", "`" + std::string(word) + "` stands alone here", found->clause->values[0].span),
+               found->clause->values[0], "");
   return found != nullptr;
+}
+
+void Clauses::fail_extra(Message message, const Expr& extra, const std::string& otherwise) const {
+  // A clause word with a slip in it, or of another construct, reads as one more value.
+  const std::string hint = record_ != nullptr && extra.kind == ExprKind::name ? words_hint(*record_, extra.text) : "";
+  fail(program_, message.help(hint.empty() ? otherwise : hint));
 }
 
 const Expr& Clauses::value(const BoundClause& bound) const {
@@ -83,28 +89,25 @@ const Expr& Clauses::value(const BoundClause& bound) const {
                              : near.empty()      ? "to multiply, write the sign: `2 * width`"
                                                  : near));
   }
-  std::string hint;  // a clause word with a slip in it reads as one more value
-  if (record_ != nullptr && second.kind == ExprKind::name) {
-    std::vector<std::string> words;
-    for (const ClauseRecord& known : record_->clauses) words.emplace_back(known.word);
-    hint = did_you_mean(second.text, words);
-  }
-  if (hint.empty())
-    hint = clause.word.text == "=" ? "put an operator between the two, or begin a new line"
-                                   : "`" + clause.word.text + ' ' + takes + "`";
-  fail(program_,
-       Message("G0313", "`" + clause.word.text + "` takes one value, here is more", second.span).help(hint));
+  // A value without its word: `turn` is missing in `hem low on front.hem 4 cm`.
+  const bool plain = record_ != nullptr && (second.kind == ExprKind::number || second.kind == ExprKind::name);
+  fail_extra(Message("G0313", "`" + clause.word.text + "` takes one value, here is more", second.span), second,
+             clause.word.text == "=" ? "put an operator between the two, or begin a new line"
+             : plain                 ? "is a word missing before it? the form is `" + std::string(record_->form) + "`"
+                                     : "`" + clause.word.text + ' ' + takes + "`");
 }
 
 double checked_quantity(Program& program, const ClauseRecord& record, const Quantity& q, Span span) {
   if (record.min <= record.max && !(q.value >= record.min && q.value <= record.max)) {
     const bool percent = record.takes.find('%') != std::string_view::npos;
+    const bool forgot = percent && !q.percent && q.value / 100 >= record.min && q.value / 100 <= record.max;
     fail(program, Message("G0309",
                           "`" + std::string(record.word) + "` is " +
                               format_quantity(q.value, q.dimension, percent || q.percent) +
                               "; it must lie in " + format_quantity(record.min, record.dimension, percent) +
                               " .. " + format_quantity(record.max, record.dimension, percent),
-                          span));
+                          span)
+                      .help(forgot ? "is it " + format_quantity(q.value / 100, {}, true) + "? a share is written with its sign" : ""));
   }
   return q.value;
 }

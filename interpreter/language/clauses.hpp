@@ -34,6 +34,7 @@ class Clauses {
   void finish();
 
  private:
+  [[noreturn]] void fail_extra(Message message, const Expr& extra, const std::string& otherwise) const;
   struct Entry {
     BoundClause bound;
     bool read = false;

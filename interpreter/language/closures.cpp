@@ -63,8 +63,8 @@ Value evaluate_zip(Program& program, Declaration& declaration) {
                               "; a zip's tapes are equally long",
                           spans[1], format_mm(two))
                       .also(spans[0], format_mm(one))
-                      .help("shorten the longer side: `" + show(Value{edges[one > two ? 0 : 1]}) +
-                            "[start .. " + format_quantity(std::min(one, two), kLength) + "]`"));
+                      .help("shorten the longer side, `" + std::string(program.sources.text(spans[one > two ? 0 : 1])) + "`, to " +
+                            format_quantity(std::min(one, two), kLength) + ": a part of an edge is written `EDGE[start .. 20 cm]`"));
   // The rule of seams: the sides run oppositely round their loops; the first one counts from its drawn start.
   auto with_loop = [&](const design::EdgePart& part) {
     return (part.to >= part.from) == program.panels[static_cast<std::size_t>(part.panel)].counter_clockwise;

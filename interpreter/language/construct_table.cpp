@@ -105,14 +105,18 @@ std::string help_text(std::string_view name) {
 
 std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates) {
   const std::size_t limit = name.size() < 3 ? 1 : std::min<std::size_t>(3, (name.size() + 2) / 3);
-  std::size_t best = limit + 1;
+  std::size_t best = limit + 1, common = 0;  // of names as near, the one that begins alike for longer
   std::string found;
   for (const std::string& candidate : candidates) {
     if (candidate.size() > name.size() + limit || name.size() > candidate.size() + limit) continue;
     const std::size_t d = edit_distance(name, candidate);
     // A name of one or two letters is no slip of another of one or two letters.
-    if (d < best && d < std::max(name.size(), candidate.size())) {
+    const std::size_t alike = static_cast<std::size_t>(
+        std::mismatch(name.begin(), name.begin() + static_cast<std::ptrdiff_t>(std::min(name.size(), candidate.size())), candidate.begin()).first -
+        name.begin());
+    if ((d < best || (d == best && alike > common && !found.empty())) && d < std::max(name.size(), candidate.size())) {
       best = d;
+      common = alike;
       found = candidate;
     }
   }
@@ -122,6 +126,19 @@ std::string nearest_name(std::string_view name, const std::vector<std::string>& 
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& candidates) {
   const std::string found = nearest_name(name, candidates);
   return found.empty() ? "" : "did you mean `" + found + "`?";
+}
+
+std::string words_hint(const ConstructRecord& construct, std::string_view word) {
+  std::vector<std::string> words;
+  std::string list;
+  for (const ClauseRecord& clause : construct.clauses) {
+    if (clause.word == ":" || clause.word == "=") continue;
+    words.emplace_back(clause.word);
+    list += (list.empty() ? "`" : ", `") + words.back() + '`';
+  }
+  const std::string near = did_you_mean(word, words);
+  if (!near.empty() || list.empty()) return near;
+  return "`" + std::string(word) + "` is no word of `" + std::string(construct.keyword) + "`; its words are " + list;
 }
 
 }  // namespace garment::interpreter

@@ -72,6 +72,9 @@ std::string nearest_name(std::string_view name, const std::vector<std::string>& 
 /// "did you mean `x`?" or empty.
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& candidates);
 
+/// For a word that is none of the construct's: the clause word it may be a slip of, else all of them.
+std::string words_hint(const ConstructRecord& construct, std::string_view word);
+
 namespace detail {
 std::vector<ConstructRecord> basics_constructs();
 std::vector<ConstructRecord> cloth_constructs();

@@ -402,9 +402,16 @@ void check_assignments(Program& program, Module& module) {
       told.push_back(change.span);
       std::string path = item.declaration->name;
       for (const std::string& word : change.path) path += '.' + word;
-      const std::vector<std::string> words = assignable(program, *item.declaration, record);
+      std::vector<std::string> words = assignable(program, *item.declaration, record);
+      std::size_t at = 0;  // the word of the path that is not there
+      if (change.path.size() > 1 && std::find(words.begin(), words.end(), change.path[0]) != words.end()) {
+        at = 1;
+        words.clear();
+        for (const char* drawn : {"dart", "pleat", "tuck", "notch", "edge"})
+          for (const ClauseRecord& clause : find_construct(drawn)->clauses) words.emplace_back(clause.word);
+      }
       report(program, Message("G0311", "there is no `" + path + "` to assign to", change.span)
-                          .help(meant_or_listed(change.path.empty() ? "" : change.path[0], words, "what can be assigned is")));
+                          .help(meant_or_listed(change.path.empty() ? "" : change.path[at], words, "what can be assigned is")));
     }
   }
 }

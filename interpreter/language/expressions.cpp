@@ -181,6 +181,11 @@ struct DepthGuard {
   if (expr.text == "minus")
     fail(program, Message("G0306", "`minus` between values; it takes one region away from another, in the shape of a region", expr.span)
                       .help("write `region NAME in PANEL: A minus B`; numbers are subtracted with `-`"));
+  if (expr.text == "=") {
+    const std::string name(program.sources.text(expr.children[0].span)), value(program.sources.text(expr.children[1].span));
+    fail(program, Message("G0307", "`=` within a value", expr.span)
+                      .help("an argument is named by `:`, as in `" + name + ": " + value + "`; two values are compared by `==`"));
+  }
   const Value a = eval(program, expr.children[0], scope);
   const Value b = eval(program, expr.children[1], scope);
   return apply_binary(program, expr, a, b);

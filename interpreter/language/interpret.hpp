@@ -139,6 +139,8 @@ Interpretation interpret(grammar::Sources& sources, grammar::SourceId source, Ho
 class DrapeMeasures {
  public:
   virtual ~DrapeMeasures() = default;
+  /// Answers stand for those of a drape to come: they are not shown to anybody.
+  virtual bool stand_in() const { return false; }
   virtual std::optional<double> strain(const std::string& panel) const = 0;  ///< largest tensile, 1
   virtual std::optional<double> shear(const std::string& panel) const = 0;   ///< largest angle, rad
   virtual std::optional<double> length(const std::vector<design::EdgePart>& parts) const = 0;  ///< m

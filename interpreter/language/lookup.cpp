@@ -84,18 +84,54 @@ std::vector<std::string> visible_names(const Scope& scope) {
 // Names that are compared for a hint, over all messages: a broken script of many names must not take minutes.
 constexpr std::size_t kMostComparisons = 2'000'000;
 
+namespace {
+
+/// `front.waist` for `waist`: what a drawn panel has under that name.
+std::string thing_of_a_panel(const Program& program, const std::string& name) {
+  for (const PanelInfo& info : program.panels) {
+    if (!info.ready) continue;
+    const design::Panel& panel = info.panel;
+    const auto has = [&](const auto& list) {
+      return std::any_of(list.begin(), list.end(), [&](const auto& thing) { return thing.name == name; });
+    };
+    if (has(panel.edges) || has(panel.lines) || has(panel.points) || has(panel.holes)) return panel.name + '.' + name;
+    for (const design::Notch& notch : panel.notches)
+      if (notch.name == name) return panel.name + '.' + notch.edge + '.' + name;
+  }
+  return "";
+}
+
+/// `form.waist` for `waist`: a level of a body that was asked before.
+std::string place_of_a_body(const Program& program, const std::string& name) {
+  for (const auto& [index, frame] : program.frames)
+    if (frame.levels.contains(name)) return program.garment.bodies[static_cast<std::size_t>(index)].name + '.' + name;
+  return "";
+}
+
+/// What an unknown name is elsewhere, or a unit it was meant for.
+std::string known_elsewhere(const Program& program, const std::string& name) {
+  for (const char* library : {"fabrics", "bodies", "blocks", "modifiers"})
+    if (name == library) return "write `use " + name + "` at the top";
+  for (const std::string& found : {place_of_a_body(program, name), thing_of_a_panel(program, name)})
+    if (!found.empty()) return "did you mean `" + found + "`?";
+  if (name.size() > 1 && (name.back() == '2' || name.back() == '3') && find_unit(name.substr(0, name.size() - 1)))
+    return "a power of a unit is written `" + name.substr(0, name.size() - 1) + '^' + name.back() + "`";
+  return "";
+}
+
+}  // namespace
+
 void fail_unknown_name(Program& program, const std::string& name, Span span, Scope& scope) {
   if (scope.module != nullptr && scope.module->has_broken)
     throw Stop{};  // a broken line may have declared it
   Message message("G0301", "there is nothing named `" + name + "`", span);
-  std::string hint;
+  std::string hint = known_elsewhere(program, name);
   constexpr std::size_t kHints = 100;  // after so many mistakes no names are compared any more: it would take minutes
-  if (program.diagnostics.size() < kHints)
+  if (hint.empty() && program.diagnostics.size() < kHints)
     if (const std::vector<std::string> names = visible_names(scope);
         names.size() * (program.diagnostics.size() + 1) <= kMostComparisons)
       hint = did_you_mean(name, names);
   if (hint.empty() && find_unit(name)) hint = "`" + name + "` is a unit: write it after a number";
-  if (hint.empty() && (name == "fabrics" || name == "bodies")) hint = "write `use " + name + "` at the top";
   fail(program, message.help(hint));
 }
 
@@ -162,7 +198,8 @@ bool eval_truth(Program& program, const Expr& expr, Scope& scope, const std::str
   const Value value = eval(program, expr, scope);
   if (const bool* b = value.as<bool>()) return *b;
   fail(program, Message("G0306", kind_of(value) + " where " + what + " takes true or false", expr.span)
-                    .help("compare it: `... > 0`"));
+                    .help(value.as<EdgeValue>() != nullptr ? "sides of a seam are joined by `to`, edges of one side by `+`"
+                                                           : "compare it: `... > 0`"));
 }
 
 std::string eval_text(Program& program, const Expr& expr, Scope& scope, const std::string& what) {

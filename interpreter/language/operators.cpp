@@ -12,18 +12,28 @@ namespace {
 [[noreturn]] void fail_kinds(Program& program, const Expr& expr, const Value& a, const Value& b) {
   fail(program,
        Message("G0306", "`" + expr.text + "` between " + kind_of(a) + " and " + kind_of(b), expr.span)
-           .help(expr.text == "+" ? "`+` adds numbers of one kind, adds points, joins lists, and chains edges and curves" : ""));
+           .help(a.as<BodyPlaceValue>() != nullptr || b.as<BodyPlaceValue>() != nullptr
+                     ? "a level is no number: ask its `.girth` or `.height`, as in `" +
+                           std::string(program.sources.text(expr.children[a.as<BodyPlaceValue>() != nullptr ? 0 : 1].span)) + ".girth`"
+                 : expr.text == "+" ? "`+` adds numbers of one kind, adds points, joins lists, and chains edges and curves" : ""));
 }
 
 [[noreturn]] void fail_dimensions(Program& program, const Expr& expr, const Quantity& a, const Quantity& b) {
+  const auto shown = [&](const Quantity& q) {
+    if (program.drape != nullptr && program.drape->stand_in()) return std::string();
+    return " (" + format_quantity(q.value, q.dimension, q.percent) + ")";
+  };
   Message message("G0305",
-                  "`" + expr.text + "` between " + describe(a.dimension) + " (" +
-                      format_quantity(a.value, a.dimension, a.percent) + ") and " + describe(b.dimension) +
-                      " (" + format_quantity(b.value, b.dimension, b.percent) + ")",
+                  "`" + expr.text + "` between " + describe(a.dimension) + shown(a) + " and " + describe(b.dimension) + shown(b),
                   expr.span);
   const Quantity& bare = a.dimension.none() ? a : b;
   const Quantity& other = a.dimension.none() ? b : a;
-  if (bare.dimension.none() && !bare.percent)
+  const std::string& text = program.sources[expr.span.source].text;
+  const bool comma = expr.span.end + 1 < text.size() && text[expr.span.end] == ',' && text[expr.span.end + 1] >= '0' &&
+                     text[expr.span.end + 1] <= '9';
+  if (comma)
+    message.help("is it a decimal point? it is written `.`, as in `5.5 cm`");
+  else if (bare.dimension.none() && !bare.percent)
     message.help("give the number a unit: `" + format_quantity(bare.value, {}) + ' ' +
                  example_unit(other.dimension) + "`");
   fail(program, message);

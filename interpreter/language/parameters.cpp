@@ -1,5 +1,7 @@
 #include "interpreter/language/parameters.hpp"
 
+#include <algorithm>
+
 #include "interpreter/language/clauses.hpp"
 #include "interpreter/language/collections.hpp"
 
@@ -89,7 +91,10 @@ Value evaluate_param(Program& program, Declaration& declaration) {
   auto take_doc = [&](const std::vector<Expr>& from) {
     if (from.size() > 2 || (from.size() == 2 && from[1].kind != ExprKind::string))
       fail(program,
-           Message("G0313", "a param has one value and one text that says what it is", from.back().span));
+           Message("G0313", "a param has one value and one text that says what it is", from.back().span)
+               .help(std::any_of(from.begin(), from.end(), [](const Expr& e) { return e.kind == ExprKind::name && e.text == "to"; })
+                         ? "a range is written with `..`: `in 30 cm .. 90 cm`"
+                         : ""));
     if (from.size() == 2) parameter.doc = eval_text(program, from[1], scope, "what the param is");
   };
   take_doc(values);

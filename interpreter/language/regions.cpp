@@ -205,7 +205,7 @@ int eval_region(Program& program, const Expr& expr, Scope& scope, const std::str
   const auto* thing = value.as<ThingValue>();
   if (thing != nullptr && thing->keyword == "region") return thing->index;
   fail(program, Message("G0306", kind_of(value) + " where " + what + " takes a region", expr.span)
-                    .help("declare one: `region NAME in PANEL: SHAPE`"));
+                    .help("shapes are `within D of EDGE`, `above P`, `below P`, `left of LINE`, `right of LINE`, `circle(C, R)`, `polygon(P, Q, R)` and regions"));
 }
 
 int eval_region_on(Program& program, const Expr& expr, Scope& scope, int panel, const std::string& what) {

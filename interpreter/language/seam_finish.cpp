@@ -95,7 +95,8 @@ double SeamFinishReader::number(const std::string& word, const Clause* clause, c
   if (change == nullptr && clause->values.empty())
     fail(program_, Message("G0312", "`" + word + "` needs a value", clause->word.span));
   if (change == nullptr && clause->values.size() > 1)
-    fail(program_, Message("G0313", "`" + word + "` takes one value, here is more", clause->values[1].span));
+    fail(program_, Message("G0313", "`" + word + "` takes one value, here is more", clause->values[1].span)
+                       .help(clause->values[1].kind == ExprKind::name ? words_hint(*find_construct("seam"), clause->values[1].text) : ""));
   const Expr& expr = change != nullptr ? *change->value : clause->values[0];
   const Quantity q = eval_quantity(program_, expr, change != nullptr ? *change->scope : scope_,
                                    record.dimension, "`" + word + "`");

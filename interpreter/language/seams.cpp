@@ -29,6 +29,10 @@ class SeamMaker {
       const Clause& clause = statement_.clauses[k];
       if (!finish.take(clause, sides_.size())) take(clause);
     }
+    if (!statement_.operands.empty() && sides_.size() == 1)
+      fail(program_, Message("G0313", "a `:` is missing after `" + declaration_.name + "`", statement_.operands[0].span)
+                         .help("write `seam " + declaration_.name + ": " +
+                               std::string(program_.sources.text(statement_.operands[0].span)) + " to ...`"));
     if (!statement_.operands.empty())
       fail(program_,
            Message("G0313", "`" + std::string(program_.sources.text(statement_.operands[0].span)) + "` means nothing before the first side", statement_.operands[0].span));
