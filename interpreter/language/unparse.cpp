@@ -80,7 +80,7 @@ class Unparser {
   void write_head() {
     for (const std::string& comment : options_.comments) write_comment(comment);
     group();
-    line("garment 1 " + text::quoted(options_.title.empty() ? garment_.title : options_.title));
+    line("garment 1 " + text::in_quotes(options_.title.empty() ? garment_.title : options_.title));
     std::vector<std::string> statements = things();
     std::string use;
     for (const char* library : {"fabrics", "bodies"})
@@ -191,7 +191,7 @@ class Unparser {
       line("  grain " + text::angle_deg(90 + panel.grain_angle * (180 / portable::kPi)));
     if (panel.resolution != design::Panel{}.resolution)
       line("  resolution " + text::length(panel.resolution));
-    if (!panel.label.empty()) line("  label " + text::quoted(panel.label));
+    if (!panel.label.empty()) line("  label " + text::in_quotes(panel.label));
     for (std::size_t i = 0; i < panel.notches.size(); ++i)
       line(fmt::format("  notch {} on {} at {}", names_.notches[p][i], edge_called(p, panel.notches[i].edge),
                        text::length(panel.notches[i].at)));

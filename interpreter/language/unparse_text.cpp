@@ -74,7 +74,7 @@ std::string angle_deg(double degrees) {
 
 std::string number(double value) { return format_number(value, 12); }
 
-std::string quoted(std::string_view words) {
+std::string in_quotes(std::string_view words) {
   std::string out = "\"";
   for (char c : words) {
     if (c == '"') c = '\'';

@@ -22,7 +22,7 @@ std::string angle_deg(double degrees);
 std::string number(double value);
 /// `text` in quotes. Strings have no escapes: what would end or fill the string is replaced by a like
 /// character.
-std::string quoted(std::string_view text);
+std::string in_quotes(std::string_view text);
 
 /// True for words that a declared name may not be: keywords, units, builtin functions, words of expressions.
 bool is_kept_word(std::string_view word);

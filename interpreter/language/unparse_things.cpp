@@ -26,8 +26,8 @@ struct ShapeWriter {
     return out + ")";
   }
   std::string operator()(const design::MeshFile& file) const {
-    if (file.scale == 1) return fmt::format("mesh({})", quoted(file.path));
-    return fmt::format("mesh({}, scale: {})", quoted(file.path), format_number(file.scale));
+    if (file.scale == 1) return fmt::format("mesh({})", in_quotes(file.path));
+    return fmt::format("mesh({}, scale: {})", in_quotes(file.path), format_number(file.scale));
   }
   std::string operator()(const design::Sphere& s) const {
     return fmt::format("sphere(radius: {})", length(s.radius));
@@ -70,11 +70,11 @@ std::vector<std::string> fields_of(const design::Fabric& f) {
     fields.push_back(
         fmt::format("color = \"#{}{}{}\"", channel(f.color[0]), channel(f.color[1]), channel(f.color[2])));
   if (!f.pattern.empty()) {
-    fields.push_back("pattern = " + quoted(f.pattern));
+    fields.push_back("pattern = " + in_quotes(f.pattern));
     field("repeat", f.pattern_repeat, "m");
   }
-  if (!f.kind.empty() && f.kind != "stated") fields.push_back("kind = " + quoted(f.kind));
-  if (!f.source.empty()) fields.push_back("source = " + quoted(f.source));
+  if (!f.kind.empty() && f.kind != "stated") fields.push_back("kind = " + in_quotes(f.kind));
+  if (!f.source.empty()) fields.push_back("source = " + in_quotes(f.source));
   return fields;
 }
 

@@ -175,7 +175,7 @@ TEST_CASE("numbers of a script are short and exact enough") {
   CHECK(point(Point2(0.1, -0.02)) == "(10 cm, -2 cm)");
   CHECK(angle_deg(90) == "90 deg");
   CHECK(angle_deg(1e-12) == "0");
-  CHECK(quoted("a \"b\" {c}\n\\") == "\"a 'b' (c) /\"");
+  CHECK(in_quotes("a \"b\" {c}\n\\") == "\"a 'b' (c) /\"");
 }
 
 TEST_CASE("names that the language keeps are replaced") {
