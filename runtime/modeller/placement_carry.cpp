@@ -13,19 +13,22 @@ using Eigen::Vector3d;
 using model::Index;
 using Matrix32 = Eigen::Matrix<double, 3, 2>;
 
-/// A particle that both the new panel and a placed one hold, seen from both.
+/// A particle that both the new panel and placed ones hold, seen from both.
 struct Shared {
-  Index here, there;  ///< vertex ids in the new and in the placed panel
+  Index here;                 ///< vertex id in the new panel
+  std::vector<Index> places;  ///< in the placed panels: several where a seam of theirs ends at the particle
+  Index there = -1;           ///< the one of them that the new panel goes on from
 };
 
 std::vector<Shared> shared_vertices(const model::Model& model, std::size_t panel, const std::vector<bool>& placed) {
-  std::map<Index, Index> placed_vertex;
+  std::map<Index, std::vector<Index>> placed_vertices;
   for (std::size_t v = 0; v < model.n_vertices(); ++v)
-    if (placed[model.vertex_panel[v]]) placed_vertex.try_emplace(model.vertex_particle[v], static_cast<Index>(v));
+    if (placed[model.vertex_panel[v]]) placed_vertices[model.vertex_particle[v]].push_back(static_cast<Index>(v));
   std::vector<Shared> shared;
   const model::PanelRange& range = model.panels[panel];
   for (Index v = range.first_vertex; v < range.first_vertex + range.n_vertices; ++v)
-    if (auto it = placed_vertex.find(model.vertex_particle[v]); it != placed_vertex.end()) shared.push_back({v, it->second});
+    if (auto it = placed_vertices.find(model.vertex_particle[v]); it != placed_vertices.end())
+      shared.push_back({v, it->second, it->second.front()});
   return shared;
 }
 
@@ -33,7 +36,8 @@ std::vector<Shared> shared_vertices(const model::Model& model, std::size_t panel
 std::map<Index, Matrix32> gradients_at(const model::Model& model, const std::vector<Shared>& shared,
                                        const std::vector<Vector3d>& place) {
   std::map<Index, Matrix32> sum;
-  for (const Shared& s : shared) sum.emplace(s.there, Matrix32::Zero());
+  for (const Shared& s : shared)
+    for (Index v : s.places) sum.emplace(v, Matrix32::Zero());
   for (const auto& t : model.triangle) {
     Matrix2d flat;
     Matrix32 space;
@@ -76,17 +80,26 @@ void carry_panel(const model::Model& model, std::size_t panel, const std::vector
                  std::vector<Vector3d>& place) {
   std::vector<Shared> shared = shared_vertices(model, panel, placed);
   std::map<Index, Matrix32> gradient = gradients_at(model, shared, place);
-  // The seam's direction at each shared particle, from the nearest other shared particle of the same placed panel.
+  // The seam's direction at each shared particle, from the nearest other shared particle of the same placed panel. Where a
+  // tube's own seam ends, the particle lies at both ends of the flat panel: the place next to the neighbour's is meant.
   std::vector<Matrix2d> turn(shared.size(), Matrix2d::Identity());
   for (std::size_t i = 0; i < shared.size(); ++i) {
     double nearest = 1e300;
     for (std::size_t j = 0; j < shared.size(); ++j) {
-      if (j == i || model.vertex_panel[shared[j].there] != model.vertex_panel[shared[i].there]) continue;
-      Vector2d here = model.vertex_uv[shared[j].here] - model.vertex_uv[shared[i].here];
-      Vector2d there = model.vertex_uv[shared[j].there] - model.vertex_uv[shared[i].there];
-      if (here.norm() >= nearest || here.norm() < 1e-9 || there.norm() < 1e-9) continue;
-      nearest = here.norm();
-      turn[i] = rotation_between(here, there);
+      if (j == i) continue;
+      const Vector2d here = model.vertex_uv[shared[j].here] - model.vertex_uv[shared[i].here];
+      if (here.norm() >= nearest || here.norm() < 1e-9) continue;
+      double shortest = 1e300;
+      for (Index a : shared[i].places)
+        for (Index b : shared[j].places) {
+          if (model.vertex_panel[a] != model.vertex_panel[b]) continue;
+          const Vector2d there = model.vertex_uv[b] - model.vertex_uv[a];
+          if (there.norm() >= shortest || there.norm() < 1e-9) continue;
+          shortest = there.norm();
+          nearest = here.norm();
+          shared[i].there = a;
+          turn[i] = rotation_between(here, there);
+        }
     }
   }
   const model::PanelRange& range = model.panels[panel];
