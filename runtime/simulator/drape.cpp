@@ -240,6 +240,21 @@ Index least_settled(const model::Model& model, const Vectors& force) {
   return static_cast<Index>(std::max_element(sum.begin(), sum.end()) - sum.begin());
 }
 
+/// What most likely keeps the garment from rest.
+std::string advice(const Drape& d) {
+  constexpr double kTornApart = 0.5;  // strain that no worn garment has
+  constexpr double kFallen = 0.5;     // m, in the mean
+  const double strain = largest_spring_strain(d.model, d.x);
+  if (strain > kTornApart)
+    return fmt::format("cloth is stretched by {}%: pieces sewn together start far apart, twisted or on the wrong side; look at the "
+                       "pictures, at which ends meet in the seams, and where the pieces are placed",
+                       format_number(100 * strain, 2));
+  double fallen = 0;
+  for (std::size_t i = 0; i < d.x.size(); ++i) fallen += (d.model.start[i].y() - d.x[i].y()) / static_cast<double>(d.x.size());
+  if (fallen > kFallen) return "the garment falls and nothing catches it: attach or pin it";
+  return "allow more steps, or a coarser grid; a garment that slides without end is attached to a level";
+}
+
 void explain(Drape& d, const ContactMesh& all, const Vectors& force) {
   Findings& findings = d.report.findings;
   if (d.report.status == DrapeStatus::tangled) {
@@ -259,7 +274,7 @@ void explain(Drape& d, const ContactMesh& all, const Vectors& force) {
                                     d.report.steps, format_number(d.report.residual, 3),
                                     format_number(target_residual(d.settings.settle), 3), panel.name),
                         {{panel.origin, "most of the net force acts here"}},
-                        "a garment without support falls for ever: attach or pin it; or allow more steps"});
+                        advice(d)});
   }
   if (d.report.status == DrapeStatus::diverged)
     findings.push_back({"G0803", Severity::error, "the positions became infinite; the last finite state was kept", {},

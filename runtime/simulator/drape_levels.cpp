@@ -24,7 +24,7 @@ DrapeReport drape_levels(const std::vector<model::Model>& coarse, const model::M
     rough.settle = Settle::preview;
     rough.near_rest = from != nullptr;
     rough.certify = false;
-    rough.max_steps = std::min(settings.max_steps, kMostCoarseSteps);
+    rough.max_steps = std::min(std::max(1, settings.max_steps - steps), kMostCoarseSteps);
     DrapeReport report = drape(level, bodies, on_level, rough);
     steps += report.steps;
     if (report.status == DrapeStatus::interrupted) {
@@ -41,6 +41,7 @@ DrapeReport drape_levels(const std::vector<model::Model>& coarse, const model::M
   if (from) state.position = prolong(*from, positions, model);
   DrapeSettings fine = settings;
   fine.near_rest = settings.near_rest || from != nullptr;
+  fine.max_steps = std::max(1, settings.max_steps - steps);
   DrapeReport report = drape(model, bodies, state, fine);
   report.steps += steps;
   return report;
