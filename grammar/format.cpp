@@ -119,10 +119,10 @@ class Layout {
     if (sign_now && (b == "," || b == ";" || b == ")" || b == "]" || b == ":" || b == ".")) return true;
     if (sign_before && (a == "(" || a == "[" || a == ".")) return true;
     if (after_prefix_) return true;
+    if (sign_before && a == "^" && !power_is_spaced()) return true;
     if (sign_now && (b == "(" || b == "[")) return after_operand_ && !token.blank_before;
     if (sign_before && sign_now && a == "{" && b == "}") return true;
-    if (sign_now && b == "^") return before.kind != TokenKind::unit;
-    return sign_before && a == "^" && !power_is_spaced();
+    return sign_now && b == "^" && before.kind != TokenKind::unit;
   }
 
   /// After a unit `^` keeps its blanks: 5 cm^2 is a unit, 5 cm ^ 2 a power.

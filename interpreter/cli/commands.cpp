@@ -81,7 +81,9 @@ ExitCode check(const ProjectOptions& given, bool whole, Host& host, Terminal& te
     terminal.document(all.dump());
   }
   if (code != kOk) return code;
-  if (!terminal.options().json)
+  if (!terminal.options().json && g.panels.empty() && project.result.script != nullptr && interpreter::is_library(*project.result.script))
+    terminal.note(fmt::format("{}: ok, a library", options.file));
+  else if (!terminal.options().json)
     terminal.note(fmt::format("{}: ok, {}, {}", options.file, plural(g.panels.size(), "panel"), plural(g.seams.size(), "seam")));
   return kOk;
 }

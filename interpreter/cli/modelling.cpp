@@ -67,6 +67,8 @@ ExitCode check_model(Project& project, bool whole, Terminal& terminal) {
   Findings missing = modeller::find_unmodelled(project.result.garment, Severity::warning);
   show_findings(missing, project, terminal);
   if (!check_acts(project, true, terminal)) return kDiagnostics;
+  if (project.result.script != nullptr && project.result.garment.panels.empty() && interpreter::is_library(*project.result.script))
+    return kOk;
   const bool quick = !whole && !project.is_pattern && !project.result.garment.panels.empty();
   if (!missing.empty() || quick) return kOk;
   return build_model(project, terminal) ? kOk : kDiagnostics;

@@ -164,6 +164,12 @@ bool lost_its_declaration(const Diagnostic& d, const Diagnostics& all, const Sou
   });
 }
 
+/// A change of something that a part was given, where another mistake may have taken that away.
+bool acts_on_nothing(const Diagnostic& d, const Diagnostics& all) {
+  return d.code == "G0433" && d.labels.size() > 1 &&
+         std::any_of(all.begin(), all.end(), [&](const Diagnostic& other) { return is_error(other) && other.code != d.code; });
+}
+
 /// A value that cannot be tried because of a mistake that is told at its own place.
 bool tells_of_another(const Diagnostic& d, const Diagnostics& all) {
   return d.code == "G1205" && std::any_of(all.begin(), all.end(), [&](const Diagnostic& other) {
@@ -229,7 +235,7 @@ void drop_cascades(Diagnostics& diagnostics, const Sources& sources) {
   for (std::size_t k = 0; k < all.size(); ++k) {
     const bool repeated = std::any_of(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(k),
                                       [&](const Diagnostic& earlier) { return repeats(earlier, all[k]); });
-    if (!follows_syntax(all[k]) && !repeated && !tells_of_another(all[k], all) && !is_asserted(all[k], all) &&
+    if (!follows_syntax(all[k]) && !repeated && !tells_of_another(all[k], all) && !acts_on_nothing(all[k], all) && !is_asserted(all[k], all) &&
         !lost_its_declaration(all[k], all, sources))
       diagnostics.push_back(all[k]);
   }

@@ -273,6 +273,9 @@ bool is_settable(const Declaration& declaration) {
   if (find_local(scope, name) != nullptr)
     fail(program, Message("G0311", "a library cannot be changed", target.span)
                       .help("make your own: `fabric mine = fabrics.denim with { ... }`"));
+  if (first == &target && find_declaration(scope, name) == nullptr && !known_name_is_near(program, name, scope))
+    fail(program, Message("G0301", "nothing to assign to is named `" + name + "`", target.span)
+                      .help("a new value is declared: `let " + name + " = ...`"));
   fail_unknown_name(program, name, target.span, scope);
 }
 

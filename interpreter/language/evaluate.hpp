@@ -26,6 +26,8 @@ Declaration* find_half(Program& program, Scope& scope, const std::string& name, 
 const Value* find_local(Scope& scope, std::string_view name);
 /// Names that could be meant at this place.
 std::vector<std::string> visible_names(const Scope& scope);
+/// True where a name that could be meant is known here.
+bool known_name_is_near(const Program& program, const std::string& name, const Scope& scope);
 [[noreturn]] void fail_unknown_name(Program& program, const std::string& name, Span span, Scope& scope);
 
 /// Values of one kind. They report and throw Stop where the expression is of another kind; `what` names the

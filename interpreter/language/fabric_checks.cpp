@@ -125,7 +125,9 @@ void note_unused(Program& program, const Given& given) {
       if (std::find(places.begin(), places.end(), given.place(slot, d)) == places.end())
         places.push_back(given.place(slot, d));
     }
-  if (names.empty()) return;
+  const bool told = std::any_of(program.diagnostics.begin(), program.diagnostics.end(),
+                                [](const Diagnostic& d) { return d.code == "G0461"; });
+  if (names.empty() || told) return;  // of the first fabric: it is alike for all
   Message message("G0461", enumerated(names) + (names.size() == 1 ? " is" : " are") +
                                " kept with the fabric, but a drape to rest does not use " +
                                (names.size() == 1 ? "it" : "them"),

@@ -97,7 +97,7 @@ void run_all(Program& program) {
   if (!program.has_error) check_unsewn(program);
   check_bodies(program);
   if (!program.has_error) check_support(program);
-  if (!program.has_error && program.options.warn_unused) check_unused(program);
+  if (!program.has_error && program.options.warn_unused && !is_library(program.main->script)) check_unused(program);
   if (!program.has_error) check_fit(program);
 }
 
@@ -143,6 +143,17 @@ struct ConfinedProgram {
 };
 
 }  // namespace
+
+bool is_library(const grammar::Script& script) {
+  bool offers = false;
+  for (const Statement& statement : script.statements) {
+    const std::string& word = statement.keyword.text;
+    const bool offer = word == "fabric" || word == "component" || word == "fn";
+    if (!offer && word != "garment" && word != "use" && word != "let" && word != "assert") return false;
+    offers = offers || offer;
+  }
+  return offers;
+}
 
 Interpretation interpret(grammar::Sources& sources, grammar::SourceId source, Host& host,
                          const InterpretOptions& options) {

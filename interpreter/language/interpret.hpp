@@ -128,6 +128,10 @@ struct Interpretation {
   bool ok() const;
 };
 
+/// The script has only what a library may hold, and something that others can use: nothing in it is unused, and it has no
+/// panels of its own.
+bool is_library(const grammar::Script& script);
+
 /// Parses and evaluates one script. Never throws; what is wrong stands in `diagnostics`, and then the garment
 /// is only as far as it came. Libraries and command-line parameters are added to `sources`, which with `host`
 /// must outlive the result. Same input, same bits.

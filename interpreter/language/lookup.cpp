@@ -121,6 +121,28 @@ std::string known_elsewhere(const Program& program, const std::string& name) {
 
 }  // namespace
 
+bool known_name_is_near(const Program& program, const std::string& name, const Scope& scope) {
+  constexpr std::size_t kHints = 100;
+  return program.diagnostics.size() < kHints && !did_you_mean(name, visible_names(scope)).empty();
+}
+
+namespace {
+
+/// Names of what is drawn in the panels, for slips in a notch or edge.
+std::vector<std::string> drawn_names(const Program& program) {
+  constexpr std::size_t kMost = 2000;
+  std::vector<std::string> names;
+  for (const PanelInfo& info : program.panels) {
+    if (!info.ready || names.size() > kMost) continue;
+    for (const design::Notch& notch : info.panel.notches) names.push_back(notch.name);
+    for (const design::Edge& edge : info.panel.edges) names.push_back(edge.name);
+    for (const design::Edge& line : info.panel.lines) names.push_back(line.name);
+  }
+  return names;
+}
+
+}  // namespace
+
 void fail_unknown_name(Program& program, const std::string& name, Span span, Scope& scope) {
   if (scope.module != nullptr && scope.module->has_broken)
     throw Stop{};  // a broken line may have declared it
@@ -131,6 +153,7 @@ void fail_unknown_name(Program& program, const std::string& name, Span span, Sco
     if (const std::vector<std::string> names = visible_names(scope);
         names.size() * (program.diagnostics.size() + 1) <= kMostComparisons)
       hint = did_you_mean(name, names);
+  if (hint.empty() && program.diagnostics.size() < kHints) hint = did_you_mean(name, drawn_names(program));
   if (hint.empty() && find_unit(name)) hint = "`" + name + "` is a unit: write it after a number";
   fail(program, message.help(hint));
 }

@@ -57,6 +57,7 @@ std::vector<Target> find_targets(Program& program, const Expr& expr, Scope& scop
 
 void attach(Program& program, const Item& item) {
   const Statement& statement = *item.statement;
+  PartGuard guard(program, item.scope->part);
   if (statement.operands.empty())
     fail(program, Message("G0312", "`" + statement.keyword.text + "` needs something to act on", statement.keyword.span)
                       .help("write `" + std::string(find_construct(statement.keyword.text)->form) + "`"));

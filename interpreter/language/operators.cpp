@@ -31,7 +31,9 @@ namespace {
   const std::string& text = program.sources[expr.span.source].text;
   const bool comma = expr.span.end + 1 < text.size() && text[expr.span.end] == ',' && text[expr.span.end + 1] >= '0' &&
                      text[expr.span.end + 1] <= '9';
-  if (comma)
+  if (bare.dimension.none() && program.drape != nullptr && program.drape->stand_in())
+    message.help("strains and coefficients are shares: compare them with `8%`");
+  else if (comma)
     message.help("is it a decimal point? it is written `.`, as in `5.5 cm`");
   else if (bare.dimension.none() && !bare.percent)
     message.help("give the number a unit: `" + format_quantity(bare.value, {}) + ' ' +

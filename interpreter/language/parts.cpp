@@ -307,6 +307,7 @@ void fail_part_member(Program& program, const Part& part, const std::string& nam
 }
 
 void check_components(Program& program) {
+  if (is_library(program.main->script)) return;
   for (const Item& item : program.main->items) {
     if (item.declaration == nullptr || keyword_of(*item.declaration) != "component" ||
         item.scope->part != nullptr)

@@ -56,12 +56,21 @@ std::string form_at(const Block& block, Span place) {
   return construct == nullptr || construct->form.empty() ? "" : "the form is `" + std::string(construct->form) + "`";
 }
 
+/// A word that begins a clause somewhere stands where it begins none: the form of its statement says what does.
+bool is_clause_word(std::string_view word) {
+  return std::any_of(construct_table().begin(), construct_table().end(),
+                     [&](const ConstructRecord& construct) { return find_clause(construct, word) != nullptr; });
+}
+
 }  // namespace
 
 void add_remedies(grammar::Diagnostics& diagnostics, const std::vector<const grammar::Script*>& scripts) {
   for (grammar::Diagnostic& d : diagnostics) {
     if (!d.help.empty() || d.severity == Severity::note) continue;
-    if (is_about_form(d.code) && !d.labels.empty())
+    const std::size_t tick = d.message.find('`');
+    const bool misplaced = d.code == "G0301" && tick != std::string::npos && d.message.back() == '`' &&
+                           is_clause_word(std::string_view(d.message).substr(tick + 1, d.message.size() - tick - 2));
+    if ((is_about_form(d.code) || misplaced) && !d.labels.empty())
       for (const grammar::Script* script : scripts)
         if (d.help.empty() && script->source == d.labels[0].span.source)
           d.help = form_at(script->statements, d.labels[0].span);

@@ -318,6 +318,12 @@ run 1 run early.garment --no-pictures -o early
 complains "G0325"
 [ ! -e early/study_wide.csv ] || fail "a script with a question before any drape was run"
 ok
+# A library is checked as one: it has no panels of its own, and others use its names.
+run 0 check "$2/stdlib/blocks.garment"
+grep -q 'ok, a library' out.txt err.txt || fail "a library is not known as one"
+ok
+grep -q 'G1225\|G0439\|G0452' err.txt && fail "names of a library count as unused"
+ok
 # Many things that cannot be modelled yet are one warning to a person, each its own to a program.
 run 0 check "$2/examples/lined_skirt.garment"
 [ "$(grep -c G0460 err.txt)" -eq 1 ] || fail "what cannot be modelled is told more than once"
