@@ -18,7 +18,7 @@ namespace {
                               const std::string& name, const std::vector<std::string>& candidates) {
   Message message("G0311", what + " has no `" + name + "`", expr.name_span);
   std::string hint = did_you_mean(name, candidates);
-  if (hint.empty() && !candidates.empty() && candidates.size() <= 12) {
+  if (hint.empty() && !candidates.empty() && candidates.size() <= 24) {
     hint = "it has ";
     for (std::size_t k = 0; k < candidates.size(); ++k) hint += (k > 0 ? ", " : "") + candidates[k];
   }
@@ -30,7 +30,8 @@ Value module_member(Program& program, const Expr& expr, Module& module, const st
   if (found != module.scope->declared.end()) return force(program, *found->second, expr.name_span);
   if (module.has_broken) throw Stop{};
   std::vector<std::string> names;
-  for (const auto& [key, declaration] : module.scope->declared) names.push_back(key);
+  for (const auto& [key, declaration] : module.scope->declared)  // what has no doc line is the library's own business
+    if (declaration->statement == nullptr || !declaration->statement->doc.empty() || !module.library) names.push_back(key);
   fail_member(program, expr, "`" + module.name + "`", name, names);
 }
 

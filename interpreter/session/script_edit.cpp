@@ -93,6 +93,9 @@ std::optional<Bytes> find_value(const Block& script, const Words& path) {
   if (const auto place = assigned_place(script, path)) return place;
   for (const Statement& statement : script)
     if (declared_name(statement) == path[0]) return value_place(statement, tail(path));
+  for (const Statement& statement : script)  // of the left and the right at once
+    if (declared_name(statement) == "both " + path[0] && statement.body && statement.body->size() == 1)
+      return value_place(statement.body->front(), tail(path));
   return std::nullopt;
 }
 
