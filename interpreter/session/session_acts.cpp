@@ -178,7 +178,7 @@ Outcome Session::drape(Stage& stage, bool from_present, std::string& text) {
   settings.interrupted = options_.interrupted;
   auto state = std::make_shared<model::State>(*stage.shape.state);
   std::vector<model::Model> coarse;
-  if (!from_present || simulator::far_from_rest(model, state->position))
+  if (!from_present || simulator::far_from_rest(model, state->position, stage.shape.strained))
     coarse = coarse_models(result.garment, result.bodies, model, !from_present);
   stage.shape.report = from_present ? simulator::drape_again(coarse, model, result.bodies, *state, settings)
                                     : simulator::drape_levels(coarse, model, result.bodies, *state, settings);
@@ -187,6 +187,8 @@ Outcome Session::drape(Stage& stage, bool from_present, std::string& text) {
   text += shown(interpreter::to_diagnostics(stage.shape.report.findings, result.origins),
                 stage.evaluated->sources, Severity::warning);
   text += summary(model, *state, stage.shape.report) + seconds_since(begun) + '\n';
+  if (stage.shape.report.status == simulator::DrapeStatus::at_rest)
+    stage.shape.strained = simulator::strained_share(model, state->position);
   stage.shape.state = std::move(state);
   if (stage.shape.report.status == simulator::DrapeStatus::interrupted)
     text += "stopped; the shape is kept, `drape until rest` goes on from it\n";
@@ -202,7 +204,7 @@ Outcome Session::carry_on(const Stage& before, Stage& stage, std::string& text) 
     return Outcome::done;
   }
   auto state = std::make_shared<model::State>(carried_state(before, stage));
-  stage.shape = {std::move(state), {}, before.shape.settle, false, true};
+  stage.shape = {std::move(state), {}, before.shape.settle, false, true, before.shape.strained};
   if (automatic_) return drape(stage, true, text);
   text += "the shape was carried over; `drape until rest` brings it to rest\n";
   return Outcome::done;

@@ -35,6 +35,7 @@ struct Shape {
   simulator::Settle settle = simulator::Settle::equilibrium;
   bool draped = false;   ///< `report` speaks of this shape
   bool carried = false;  ///< carried over from a drape and not draped since
+  double strained = 0;   ///< simulator::strained_share at the last rest
 };
 
 /// Names of pins and clamps that `release` let go.

@@ -12,18 +12,22 @@ using model::Vector3d;
 using Vectors = std::vector<Vector3d>;
 
 constexpr double kMuch = 0.03;  // stretch or squeeze of a spring
-constexpr double kMany = 0.05;  // share of the springs
+constexpr double kMany = 0.05;  // share of the springs, beyond that at rest
 constexpr int kMostCoarseSteps = 250;
 
 }  // namespace
 
-bool far_from_rest(const model::Model& model, const Vectors& position) {
+double strained_share(const model::Model& model, const Vectors& position) {
   std::size_t n = 0;
   for (std::size_t s = 0; s < model.spring.size(); ++s) {
     const double length = (position[model.spring[s][0]] - position[model.spring[s][1]]).norm();
     n += std::abs(length / model.spring_rest[s] - 1) > kMuch ? 1 : 0;
   }
-  return static_cast<double>(n) > kMany * static_cast<double>(model.spring.size());
+  return model.spring.empty() ? 0 : static_cast<double>(n) / static_cast<double>(model.spring.size());
+}
+
+bool far_from_rest(const model::Model& model, const Vectors& position, double at_rest) {
+  return strained_share(model, position) > at_rest + kMany;
 }
 
 DrapeReport drape_again(const std::vector<model::Model>& coarse, const model::Model& model,

@@ -6,9 +6,12 @@
 
 namespace garment::simulator {
 
-/// True where many springs are stretched or squeezed by more than a few per cent: then the garment has to
-/// move as a whole, and coarser grids find the way sooner.
-bool far_from_rest(const model::Model& model, const std::vector<model::Vector3d>& position);
+/// Share of the springs that are stretched or squeezed by more than a few per cent.
+double strained_share(const model::Model& model, const std::vector<model::Vector3d>& position);
+
+/// True where many more springs are so than at the rest before (`at_rest`: a knit may hang stretched): then the garment
+/// has to move as a whole, and coarser grids find the way sooner.
+bool far_from_rest(const model::Model& model, const std::vector<model::Vector3d>& position, double at_rest = 0);
 
 /// Drapes `state`, which hangs near its rest, to rest. On each of the `coarse` models (coarsest first; none
 /// where the change is small) the shape is draped too, and the way that the coarse garment went is added to
