@@ -145,14 +145,11 @@ struct ConfinedProgram {
 }  // namespace
 
 bool is_library(const grammar::Script& script) {
-  bool offers = false;
-  for (const Statement& statement : script.statements) {
-    const std::string& word = statement.keyword.text;
-    const bool offer = word == "fabric" || word == "component" || word == "fn";
-    if (!offer && word != "garment" && word != "use" && word != "let" && word != "assert") return false;
-    offers = offers || offer;
-  }
-  return offers;
+  return !script.statements.empty() &&
+         std::all_of(script.statements.begin(), script.statements.end(), [](const Statement& statement) {
+           const ConstructRecord* record = find_construct(statement.keyword.text);
+           return statement.broken || (record != nullptr && record->in_library);
+         });
 }
 
 Interpretation interpret(grammar::Sources& sources, grammar::SourceId source, Host& host,

@@ -128,8 +128,8 @@ struct Interpretation {
   bool ok() const;
 };
 
-/// The script has only what a library may hold, and something that others can use: nothing in it is unused, and it has no
-/// panels of its own.
+/// The script holds values, functions, fabrics and components alone: it is there for others to use, and what it does not use
+/// itself is no news.
 bool is_library(const grammar::Script& script);
 
 /// Parses and evaluates one script. Never throws; what is wrong stands in `diagnostics`, and then the garment

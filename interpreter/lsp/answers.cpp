@@ -345,16 +345,6 @@ namespace {
 
 const char* const kUnused = "G0439";
 
-/// A file of values, functions and the like alone is there for others to use: what it does not use itself is
-/// no news.
-bool is_library(const grammar::Script& script) {
-  return std::all_of(
-      script.statements.begin(), script.statements.end(), [](const grammar::Statement& statement) {
-        const interpreter::ConstructRecord* record = interpreter::find_construct(statement.keyword.text);
-        return statement.broken || (record != nullptr && record->in_library);
-      });
-}
-
 Json diagnostic_json(const grammar::Diagnostic& d, Places& places, Span primary) {
   std::string text = d.message;
   if (!d.labels.empty() && !d.labels[0].text.empty()) text += "\n" + d.labels[0].text;
@@ -384,7 +374,7 @@ std::map<std::string, Json> diagnostics_of(const Document& document, Encoding en
   if (document.now == nullptr) return by_file;
   const Analysis& analysis = *document.now;
   Places places(analysis, encoding);
-  const bool library = is_library(*analysis.result.script);
+  const bool library = interpreter::is_library(*analysis.result.script);
   for (const grammar::Diagnostics* some : {&analysis.result.diagnostics, &analysis.model})
     for (const grammar::Diagnostic& d : *some) {
       if (library && d.code == kUnused) continue;
