@@ -144,11 +144,18 @@ struct ConfinedProgram {
 
 }  // namespace
 
+bool may_be_library(const grammar::Script& script) {
+  return std::all_of(script.statements.begin(), script.statements.end(), [](const Statement& statement) {
+    const ConstructRecord* record = find_construct(statement.keyword.text);
+    return statement.broken || (record != nullptr && record->in_library);
+  });
+}
+
 bool is_library(const grammar::Script& script) {
-  return !script.statements.empty() &&
-         std::all_of(script.statements.begin(), script.statements.end(), [](const Statement& statement) {
-           const ConstructRecord* record = find_construct(statement.keyword.text);
-           return statement.broken || (record != nullptr && record->in_library);
+  return may_be_library(script) &&
+         std::any_of(script.statements.begin(), script.statements.end(), [](const Statement& statement) {
+           const std::string& word = statement.keyword.text;
+           return word == "fabric" || word == "component" || word == "fn";
          });
 }
 

@@ -128,8 +128,12 @@ struct Interpretation {
   bool ok() const;
 };
 
-/// The script holds values, functions, fabrics and components alone: it is there for others to use, and what it does not use
-/// itself is no news.
+/// The script holds only what a library may hold. Values alone may as well be the beginning of a garment whose panels are still
+/// to be written.
+bool may_be_library(const grammar::Script& script);
+
+/// The script may be a library and has a fabric, a function or a component to offer: it is there for others to use, and what
+/// it does not use itself is no news.
 bool is_library(const grammar::Script& script);
 
 /// Parses and evaluates one script. Never throws; what is wrong stands in `diagnostics`, and then the garment

@@ -374,7 +374,7 @@ std::map<std::string, Json> diagnostics_of(const Document& document, Encoding en
   if (document.now == nullptr) return by_file;
   const Analysis& analysis = *document.now;
   Places places(analysis, encoding);
-  const bool library = interpreter::is_library(*analysis.result.script);
+  const bool library = interpreter::may_be_library(*analysis.result.script);
   for (const grammar::Diagnostics* some : {&analysis.result.diagnostics, &analysis.model})
     for (const grammar::Diagnostic& d : *some) {
       if (library && d.code == kUnused) continue;
