@@ -7,7 +7,7 @@
 
 #include "runtime/base/parallel.hpp"
 #include "runtime/modeller/chart.hpp"
-#include "runtime/modeller/region_fields.hpp"
+#include "runtime/modeller/layered_cloth.hpp"
 
 namespace garment::modeller {
 namespace {
@@ -68,16 +68,17 @@ std::vector<GridStencil> grid_stencils(const model::Model& model) {
   return stencils;
 }
 
-/// Plate matrix, in (11, 22, 12), of a cloth whose warp runs along the unit vector `warp` of the chart.
-Matrix3d plate_matrix(const design::Fabric& fabric, const design::RegionFactors& factors,
-                      const Vector2d& warp) {
-  double c = warp.x(), s = warp.y();
-  Matrix3d turn;
-  turn << c * c, s * s, 2 * s * c, s * s, c * c, -2 * s * c, -s * c, s * c, c * c - s * s;
-  Eigen::Vector3d own(fabric.bending_rigidity[0] * factors.bend_warp,
-                      fabric.bending_rigidity[1] * factors.bend_weft,
-                      4 * twist_rigidity(fabric) * factors.twist);
-  return turn.transpose() * own.asDiagonal() * turn;
+/// Plate matrix, in (11, 22, 12), of the cloth about a place of a panel, in axes in which its warp runs along the unit vector
+/// `warp`.
+Matrix3d plate_at(const std::vector<MeshedPanel>& panels, const ClothFields& fields, Index panel, const Point2& at,
+                  const Vector2d& warp) {
+  const MeshedPanel& p = panels[panel];
+  const Matrix3d turn = seen_along(warp);
+  if (fields.plain(panel)) {
+    const Eigen::Vector3d own(p.fabric->bending_rigidity[0], p.fabric->bending_rigidity[1], 4 * twist_rigidity(*p.fabric));
+    return turn.transpose() * own.asDiagonal() * turn;
+  }
+  return turn.transpose() * ClothAt(fields, panel, p.frame, at, std::max(p.frame.hp, p.frame.hq)).plate() * turn;
 }
 
 /// A fitted stencil with the plate matrix of each panel that meets at its particle.
@@ -87,7 +88,7 @@ struct Fit {
 };
 
 /// Adds the plate matrices of the panels in the chart's fan: the area mean over each panel's triangles.
-void add_plates(const Sheet& sheet, const std::vector<MeshedPanel>& panels, const RegionFields& regions,
+void add_plates(const Sheet& sheet, const std::vector<MeshedPanel>& panels, const ClothFields& fields,
                 const model::Model& model, const Chart& chart, Fit& fit) {
   std::vector<double> area;
   for (std::size_t k = 0; k < chart.fan.size(); ++k) {
@@ -106,18 +107,15 @@ void add_plates(const Sheet& sheet, const std::vector<MeshedPanel>& panels, cons
       fit.plate.emplace_back(panel, Matrix3d::Zero());
       area.push_back(0);
     }
-    design::RegionFactors factors;
-    if (!regions.plain(panel))
-      factors =
-          regions.at(panel, (model.vertex_uv[v[0]] + model.vertex_uv[v[1]] + model.vertex_uv[v[2]]) / 3);
-    fit.plate[slot].second += weight * plate_matrix(*panels[panel].fabric, factors, warp);
+    const Point2 middle = (model.vertex_uv[v[0]] + model.vertex_uv[v[1]] + model.vertex_uv[v[2]]) / 3;
+    fit.plate[slot].second += weight * plate_at(panels, fields, panel, middle, warp);
     area[slot] += weight;
   }
   for (std::size_t slot = 0; slot < area.size(); ++slot) fit.plate[slot].second /= area[slot];
 }
 
 std::vector<Fit> make_fits(const Sheet& sheet, const std::vector<MeshedPanel>& panels,
-                           const RegionFields& regions, const model::Model& model,
+                           const ClothFields& fields, const model::Model& model,
                            const std::vector<Index>& at, const std::vector<char>& joined) {
   std::vector<Fit> fits(at.size());
   parallel_for(at.size(), 64, [&](std::size_t begin, std::size_t end) {
@@ -129,7 +127,7 @@ std::vector<Fit> make_fits(const Sheet& sheet, const std::vector<MeshedPanel>& p
         chart = develop(sheet, model, at[k], 3);
         fits[k].curvature = fit_curvature(*chart, at[k], joined[at[k]] != 0);
       }
-      add_plates(sheet, panels, regions, model, *chart, fits[k]);
+      add_plates(sheet, panels, fields, model, *chart, fits[k]);
     }
   });
   return fits;
@@ -186,7 +184,7 @@ void hand_over_areas(const Sheet& sheet, const model::Model& model, const std::v
   }
 }
 
-void add_grid_bending(const std::vector<MeshedPanel>& panels, const RegionFields& regions,
+void add_grid_bending(const std::vector<MeshedPanel>& panels, const ClothFields& fields,
                       const std::vector<GridStencil>& stencils, const std::vector<Areas>& areas,
                       model::Model& model) {
   std::vector<Index> vertex(model.n_particles(), 0);  // grid particles have one each
@@ -199,20 +197,18 @@ void add_grid_bending(const std::vector<MeshedPanel>& panels, const RegionFields
     Vector2d h = model.cell_size[s.cell[0]];
     double area = total(areas[i]);
     const Index panel = areas[i].front().panel;
-    const design::Fabric& fabric = *panels[panel].fabric;
-    design::RegionFactors factors;
-    if (!regions.plain(panel)) factors = regions.at(panel, model.vertex_uv[vertex[i]]);
+    const Matrix3d plate = plate_at(panels, fields, panel, model.vertex_uv[vertex[i]], Vector2d(1, 0));
     auto at = static_cast<Index>(i);
     model.bend.push_back({behind[1], at, ahead[3]});
     model.bend_lengths.emplace_back(h.y(), h.y());
     model.bend_width.push_back(area / h.y());
-    model.bend_rigidity.push_back(fabric.bending_rigidity[0] * factors.bend_warp);
+    model.bend_rigidity.push_back(plate(0, 0));
     model.bend.push_back({behind[3], at, ahead[1]});
     model.bend_lengths.emplace_back(h.x(), h.x());
     model.bend_width.push_back(area / h.x());
-    model.bend_rigidity.push_back(fabric.bending_rigidity[1] * factors.bend_weft);
+    model.bend_rigidity.push_back(plate(1, 1));
     for (Index c : s.cell)
-      model.cell_twist[c] += twist_rigidity(fabric) * factors.twist * area / (4 * h.x() * h.y());
+      model.cell_twist[c] += plate(2, 2) / 4 * area / (4 * h.x() * h.y());
   }
 }
 
@@ -245,7 +241,7 @@ void add_fit(const Fit& fit, const Areas& areas, model::Model& model) {
 
 }  // namespace
 
-void add_bending(const std::vector<MeshedPanel>& panels, const RegionFields& regions, model::Model& model) {
+void add_bending(const std::vector<MeshedPanel>& panels, const ClothFields& fields, model::Model& model) {
   Sheet sheet = make_sheet(model);
   std::vector<GridStencil> grid = grid_stencils(model);
   std::vector<char> has_stencil(model.n_particles(), 0);
@@ -258,7 +254,7 @@ void add_bending(const std::vector<MeshedPanel>& panels, const RegionFields& reg
   std::vector<char> joined(model.n_particles(), 0);
   std::vector<int> vertices(model.n_particles(), 0);
   for (Index i : model.vertex_particle) joined[i] = ++vertices[i] > 1;
-  std::vector<Fit> fits = make_fits(sheet, panels, regions, model, others, joined);
+  std::vector<Fit> fits = make_fits(sheet, panels, fields, model, others, joined);
   for (std::size_t k = 0; k < others.size(); ++k) has_stencil[others[k]] = !fits[k].plate.empty();
   std::vector<Areas> areas(model.n_particles());
   for (std::size_t p = 0; p < panels.size(); ++p)
@@ -266,7 +262,7 @@ void add_bending(const std::vector<MeshedPanel>& panels, const RegionFields& reg
       add_area(areas[model.vertex_particle[panels[p].first_vertex + v]], static_cast<Index>(p),
                panels[p].vertex_area[v]);
   hand_over_areas(sheet, model, has_stencil, areas);
-  add_grid_bending(panels, regions, grid, areas, model);
+  add_grid_bending(panels, fields, grid, areas, model);
   model.fit_begin.assign(1, 0);
   for (std::size_t k = 0; k < others.size(); ++k)
     if (has_stencil[others[k]]) add_fit(fits[k], areas[others[k]], model);

@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "runtime/base/number.hpp"
-#include "runtime/modeller/region_fields.hpp"
+#include "runtime/modeller/layered_cloth.hpp"
 #include "runtime/modeller/tensile_law.hpp"
 
 namespace garment::modeller {
@@ -19,44 +20,61 @@ double triangle_area(const PanelMesh& mesh, const std::array<int, 3>& t) {
   return 0.5 * cross(mesh.at[t[1]] - mesh.at[t[0]], mesh.at[t[2]] - mesh.at[t[0]]);
 }
 
-/// The tensile laws of all fabrics, warp and weft, then those that regions make stiffer or softer.
+/// Width of a square about a place that one element answers for, m.
+double cell_width(const MeshedPanel& p) { return std::max(p.frame.hp, p.frame.hq); }
+
+/// The tensile laws of all fabrics, warp and weft, then those of layers and of cloth that regions make stiffer or softer.
 class Laws {
  public:
   Laws(const design::Garment& garment, model::Model& model) : model_(model) {
     for (const design::Fabric& fabric : garment.fabrics)
       for (const design::Tensile& tensile : fabric.tensile) model.laws.push_back(make_tensile_law(tensile));
   }
-  Index scaled(Index law, double factor) {
+  Index law_of(const ClothAt& cloth, int direction) {
+    std::vector<LayeredCloth::Tensile> parts = cloth.tensile(direction);
+    const double linear = cloth.linear(direction);
+    if (parts.size() == 1 && linear == 0) return scaled(parts[0].law, parts[0].factor);
+    std::vector<double> key{linear};
+    std::vector<std::pair<const model::TensileLaw*, double>> laws;
+    for (const LayeredCloth::Tensile& part : parts) {
+      key.insert(key.end(), {static_cast<double>(part.law), part.factor});
+      laws.emplace_back(&model_.laws[part.law], part.factor);
+    }
+    const auto [known, fresh] = made_.emplace(std::move(key), static_cast<Index>(model_.laws.size()));
+    if (fresh) {
+      model::TensileLaw sum = add_laws(laws, linear);
+      model_.laws.push_back(std::move(sum));
+    }
+    return known->second;
+  }
+
+ private:
+  Index scaled(int law, double factor) {
     if (factor == 1) return law;
-    for (const Made& made : made_)
-      if (made.base == law && made.factor == factor) return made.law;
+    const auto [known, fresh] = made_.emplace(std::vector<double>{0, static_cast<double>(law), factor},
+                                              static_cast<Index>(model_.laws.size()));
+    if (!fresh) return known->second;
     model::TensileLaw copy = model_.laws[law];
     for (double& force : copy.force) force *= factor;
     for (double& slope : copy.slope) slope *= factor;
     model_.laws.push_back(std::move(copy));
-    made_.push_back({law, factor, static_cast<Index>(model_.laws.size() - 1)});
-    return made_.back().law;
+    return known->second;
   }
 
- private:
-  struct Made {
-    Index base;
-    double factor;
-    Index law;
-  };
   model::Model& model_;
-  std::vector<Made> made_;
+  std::map<std::vector<double>, Index> made_;  // by linear part, then law and factor of each
 };
 
-/// A panel's elements with what the regions say of them.
+/// A panel's elements with the cloth they are made of.
 struct PanelElements {
   const MeshedPanel& panel;
   Index index, warp_law;
-  const RegionFields& regions;
+  const ClothFields& fields;
   Laws& laws;
 
-  design::RegionFactors factors(const Point2& middle) const {
-    return regions.plain(index) ? design::RegionFactors{} : regions.at(index, middle);
+  bool plain() const { return fields.plain(index); }
+  ClothAt cloth(const Point2& middle) const {
+    return ClothAt(fields, index, panel.frame, middle, cell_width(panel));
   }
 };
 
@@ -90,9 +108,12 @@ void add_springs(const PanelElements& e, model::Model& model) {
     model.spring.push_back({particle[s.u], particle[s.v]});
     model.spring_rest.push_back(s.rest);
     model.spring_width.push_back(s.width);
-    const design::RegionFactors f = e.factors((p.mesh.at[s.u] + p.mesh.at[s.v]) / 2);
-    model.spring_law.push_back(e.laws.scaled(e.warp_law + s.weft, s.weft ? f.stretch_weft : f.stretch_warp));
+    model.spring_law.push_back(e.warp_law + s.weft);
     model.spring_panel.push_back(e.index);
+    if (e.plain()) continue;
+    const ClothAt cloth = e.cloth((p.mesh.at[s.u] + p.mesh.at[s.v]) / 2);
+    model.spring_law.back() = e.laws.law_of(cloth, s.weft);
+    model.spring_rest.back() *= cloth.rest(s.weft);
   }
 }
 
@@ -110,13 +131,20 @@ void add_membranes(const PanelElements& e, model::Model& model) {
       weights[3 + k] = gradient.dot(weft);
     }
     model.membrane.push_back({particle[t[0]], particle[t[1]], particle[t[2]]});
-    model.membrane_weights.push_back(weights);
     model.membrane_area.push_back(area);
-    const design::RegionFactors f = e.factors((p.mesh.at[t[0]] + p.mesh.at[t[1]] + p.mesh.at[t[2]]) / 3);
-    model.membrane_law.push_back(
-        {e.laws.scaled(e.warp_law, f.stretch_warp), e.laws.scaled(e.warp_law + 1, f.stretch_weft)});
-    model.membrane_shear.push_back(p.fabric->shear_rigidity * f.shear);
+    model.membrane_law.push_back({e.warp_law, e.warp_law + 1});
+    model.membrane_shear.push_back(p.fabric->shear_rigidity);
     model.membrane_panel.push_back(e.index);
+    if (!e.plain()) {
+      const ClothAt cloth = e.cloth((p.mesh.at[t[0]] + p.mesh.at[t[1]] + p.mesh.at[t[2]]) / 3);
+      model.membrane_law.back() = {e.laws.law_of(cloth, 0), e.laws.law_of(cloth, 1)};
+      model.membrane_shear.back() = cloth.shear();
+      for (int k = 0; k < 3; ++k) {
+        weights[k] /= cloth.rest(0);
+        weights[3 + k] /= cloth.rest(1);
+      }
+    }
+    model.membrane_weights.push_back(weights);
   }
 }
 
@@ -157,7 +185,7 @@ std::vector<double> vertex_areas(const PanelMesh& mesh, const Border& border, do
 
 bool add_particles(const design::Garment& garment, const std::vector<MeshedPanel>& panels,
                    const std::vector<double>& areas, const std::vector<Index>& particle,
-                   const RegionFields& regions, model::Model& model, Findings& findings) {
+                   const ClothFields& fields, model::Model& model, Findings& findings) {
   bool ok = true;
   std::size_t n_particles = 0;
   for (Index i : particle) n_particles = std::max(n_particles, static_cast<std::size_t>(i) + 1);
@@ -181,13 +209,17 @@ bool add_particles(const design::Garment& garment, const std::vector<MeshedPanel
       Index at = particle[p.first_vertex + v];
       model.vertex_panel.push_back(static_cast<Index>(i));
       model.vertex_uv.push_back(p.mesh.at[v]);
-      const design::RegionFactors f =
-          regions.plain(i) ? design::RegionFactors{} : regions.at(i, p.mesh.at[v]);
-      const double mass = p.fabric->areal_density * p.vertex_area[v];
-      model.mass[at] += mass * f.mass;
-      if (f.mass != 1) range.mass += mass * (f.mass - 1);
-      model.thickness[at] = std::max(model.thickness[at], p.fabric->thickness * f.thickness);
-      model.friction[at] += p.fabric->friction * f.friction;
+      double density = p.fabric->areal_density, thickness = p.fabric->thickness, friction = p.fabric->friction;
+      if (!fields.plain(i)) {
+        const ClothAt cloth(fields, i, p.frame, p.mesh.at[v], cell_width(p));
+        density = cloth.areal_density();
+        thickness = cloth.thickness();
+        friction = cloth.friction();
+        range.mass += (density - p.fabric->areal_density) * p.vertex_area[v];
+      }
+      model.mass[at] += density * p.vertex_area[v];
+      model.thickness[at] = std::max(model.thickness[at], thickness);
+      model.friction[at] += friction;
       ++shared[at];
     }
     std::size_t folded = 0;
@@ -218,17 +250,17 @@ bool add_particles(const design::Garment& garment, const std::vector<MeshedPanel
 }
 
 void add_elements(const design::Garment& garment, const std::vector<MeshedPanel>& panels,
-                  const RegionFields& regions, model::Model& model) {
+                  const ClothFields& fields, model::Model& model) {
   Laws laws(garment, model);
   for (std::size_t i = 0; i < panels.size(); ++i) {
     const MeshedPanel& p = panels[i];
-    const PanelElements e{p, static_cast<Index>(i), static_cast<Index>(2 * p.panel->fabric), regions, laws};
+    const PanelElements e{p, static_cast<Index>(i), static_cast<Index>(2 * p.panel->fabric), fields, laws};
     const Index* particle = model.vertex_particle.data() + p.first_vertex;
     for (const auto& c : p.mesh.cells) {
       model.cell.push_back({particle[c[0]], particle[c[1]], particle[c[2]], particle[c[3]]});
       model.cell_size.push_back(p.mesh.cell_size);
-      const design::RegionFactors f = e.factors((p.mesh.at[c[0]] + p.mesh.at[c[2]]) / 2);
-      model.cell_shear.push_back(p.fabric->shear_rigidity * f.shear);
+      model.cell_shear.push_back(e.plain() ? p.fabric->shear_rigidity
+                                           : e.cloth((p.mesh.at[c[0]] + p.mesh.at[c[2]]) / 2).shear());
       model.cell_twist.push_back(0);
     }
     add_springs(e, model);

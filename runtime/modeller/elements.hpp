@@ -5,7 +5,7 @@
 
 namespace garment::modeller {
 
-class RegionFields;
+class ClothFields;
 
 /// A meshed panel and where it begins in the Model.
 struct MeshedPanel {
@@ -29,10 +29,11 @@ std::vector<double> vertex_areas(const PanelMesh& mesh, const Border& border, do
 /// folds a triangle onto a line.
 bool add_particles(const design::Garment& garment, const std::vector<MeshedPanel>& panels,
                    const std::vector<double>& areas, const std::vector<model::Index>& particle,
-                   const RegionFields& regions, model::Model& model, Findings& findings);
+                   const ClothFields& fields, model::Model& model, Findings& findings);
 
-/// Springs, trellis cells (without twist) and membranes. Factors of regions are those of an element's middle.
+/// Springs, trellis cells (without twist) and membranes. Each is made of the cloth about
+/// its middle.
 void add_elements(const design::Garment& garment, const std::vector<MeshedPanel>& panels,
-                  const RegionFields& regions, model::Model& model);
+                  const ClothFields& fields, model::Model& model);
 
 }  // namespace garment::modeller

@@ -9,9 +9,9 @@
 #include "runtime/base/parallel.hpp"
 #include "runtime/design/fineness.hpp"
 #include "runtime/modeller/bending.hpp"
+#include "runtime/modeller/cloth_fields.hpp"
 #include "runtime/modeller/holds.hpp"
 #include "runtime/modeller/placement.hpp"
-#include "runtime/modeller/region_fields.hpp"
 #include "runtime/modeller/sewing.hpp"
 #include "runtime/modeller/twins.hpp"
 #include "runtime/modeller/unmodelled.hpp"
@@ -168,12 +168,12 @@ ModelResult build_model(const design::Garment& garment, const std::vector<body::
   }
   std::vector<Index> particle = sew(matchings, matched, borders, first_vertex, n_vertices, model);
   part_twins(panels, particle);
-  const RegionFields regions(garment);
+  const ClothFields fields(garment);
   if (options.coarsen <= 1)
-    for (Finding& finding : regions.unreached(garment, panels)) findings.push_back(std::move(finding));
-  if (!add_particles(garment, panels, areas, particle, regions, model, findings)) return result;
-  add_elements(garment, panels, regions, model);
-  add_bending(panels, regions, model);
+    for (Finding& finding : fields.unreached(garment, panels)) findings.push_back(std::move(finding));
+  if (!add_particles(garment, panels, areas, particle, fields, model, findings)) return result;
+  add_elements(garment, panels, fields, model);
+  add_bending(panels, fields, model);
   if (!place_panels(garment, bodies, model, findings, options.dress)) return result;
   add_holds(garment, bodies, outlines, borders, panels, model, findings);
   if (!has_errors(findings)) result.model = std::move(model);

@@ -1,5 +1,8 @@
 #pragma once
 // From a Kawabata tensile record to the law N(strain) that springs and membranes follow.
+#include <utility>
+#include <vector>
+
 #include "runtime/design/fabric.hpp"
 #include "runtime/model/model.hpp"
 
@@ -14,7 +17,12 @@ namespace garment::modeller {
 /// no cloth was measured and the law would not rise everywhere.
 model::TensileLaw make_tensile_law(const design::Tensile& tensile);
 
-/// Force per width at `strain`, N/m, read from the table.
+/// Force per width at `strain`, N/m, and its slope dN/dstrain, N/m, read from the table.
 double tensile_force(const model::TensileLaw& law, double strain);
+double tensile_slope(const model::TensileLaw& law, double strain);
+
+/// The law of cloths that lie on one another: forces at equal strain add, each times its factor, and `linear` (N/m) times
+/// the strain. Its knots are those of all of them. Needs one law at least.
+model::TensileLaw add_laws(const std::vector<std::pair<const model::TensileLaw*, double>>& laws, double linear);
 
 }  // namespace garment::modeller

@@ -31,9 +31,10 @@ void find_unmodelled_cloth(const design::Garment& garment, const SayUnmodelled& 
   say_all("tack", garment.tacks, say);
   say_all("button", garment.buttons, say);
   say_all("zip", garment.zips, say);
-  say_all("layer", garment.layers, say);
   say_all("pad", garment.pads, say);
-  say_all("iron", garment.presses, say);
+  for (const design::Press& press : garment.presses)
+    if (press.kind != design::Press::Kind::shrink && press.kind != design::Press::Kind::extend)
+      say("iron `" + press.name + "`", press.origin);
   for (const design::Stacking& s : garment.stackings)
     say("panel `" + garment.panels[s.panel].name + "` " + (s.over ? "over" : "under") + " `" +
             garment.panels[s.other].name + "`",

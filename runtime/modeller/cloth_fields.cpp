@@ -1,0 +1,128 @@
+#include "runtime/modeller/cloth_fields.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/modeller/tensile_law.hpp"
+
+namespace garment::modeller {
+namespace {
+
+using design::Point2;
+using design::RegionFactors;
+
+constexpr int kSamples = 4;  // along each side of a square that a border crosses
+
+/// Starch stiffens: B and twist by its factor, G by the square root of it.
+RegionFactors starched(double factor) {
+  RegionFactors f;
+  f.bend_warp = f.bend_weft = f.twist = factor;
+  f.shear = std::sqrt(factor);
+  return f;
+}
+
+/// What pressing leaves of the lengths.
+Patch pressed(const design::Press& press) {
+  const double sign = press.kind == design::Press::Kind::shrink ? -1 : 1;
+  Patch patch;
+  patch.rest_warp = 1 + sign * press.factor * press.warp;
+  patch.rest_weft = 1 + sign * press.factor * press.weft;
+  return patch;
+}
+
+bool changes_length(const design::Press& press) {
+  return press.kind == design::Press::Kind::shrink || press.kind == design::Press::Kind::extend;
+}
+
+}  // namespace
+
+ClothFields::ClothFields(const design::Garment& garment) : garment_(garment), panels_(garment.panels.size()) {
+  for (const design::Fabric& fabric : garment.fabrics)
+    for (const design::Tensile& tensile : fabric.tensile) slope_.push_back(make_tensile_law(tensile).slope.front());
+  for (std::size_t r = 0; r < garment.regions.size(); ++r) {
+    Patch patch;
+    patch.factors = garment.regions[r].factors;
+    for (const design::Starch& starch : garment.starches)
+      if (starch.region == static_cast<int>(r)) patch.factors = patch.factors * starched(starch.factor);
+    add(garment, static_cast<int>(r), -1, patch);
+  }
+  for (const design::Press& press : garment.presses)
+    if (changes_length(press)) add(garment, press.region, -1, pressed(press));
+  for (std::size_t k = 0; k < garment.layers.size(); ++k) {
+    Patch patch;
+    patch.layers.push_back(static_cast<int>(k));
+    add(garment, garment.layers[k].region, garment.layers[k].panel, patch);
+  }
+}
+
+/// What `patch` says holds in the region, on all its panels or on one; without a region on the whole panel.
+void ClothFields::add(const design::Garment& garment, int region, int only_panel, const Patch& patch) {
+  if (patch.alike(Patch{})) return;
+  auto add_to = [&](int panel, const design::RegionShape& shape) {
+    if (panel < 0 || panel >= static_cast<int>(garment.panels.size())) return;
+    const auto p = static_cast<std::size_t>(panel);
+    panels_[p].push_back({design::RegionTest(garment.panels[p], shape), patch, region});
+  };
+  if (region < 0 || region >= static_cast<int>(garment.regions.size())) return add_to(only_panel, design::RegionShape{});
+  for (const design::RegionPart& part : garment.regions[region].parts)
+    if (only_panel < 0 || part.panel == only_panel) add_to(part.panel, part.shape);
+}
+
+Patch ClothFields::at(std::size_t panel, const Point2& p) const {
+  Patch sum;
+  for (const Entry& entry : panels_[panel]) {
+    if (!entry.test.contains(p)) continue;
+    sum.factors = sum.factors * entry.patch.factors;
+    sum.rest_warp *= entry.patch.rest_warp;
+    sum.rest_weft *= entry.patch.rest_weft;
+    sum.layers.insert(sum.layers.end(), entry.patch.layers.begin(), entry.patch.layers.end());
+  }
+  return sum;
+}
+
+std::vector<Patch> ClothFields::around(std::size_t panel, const Point2& p, double width) const {
+  const Patch middle = at(panel, p);
+  bool border = false;
+  for (const Point2& corner : {Point2(-1, -1), Point2(1, -1), Point2(1, 1), Point2(-1, 1)})
+    border = border || !at(panel, p + width / 2 * corner).alike(middle);
+  if (!border) return {middle};
+  std::vector<Patch> patches;
+  for (int i = 0; i < kSamples; ++i)
+    for (int j = 0; j < kSamples; ++j) {
+      const Point2 off((i + 0.5) / kSamples - 0.5, (j + 0.5) / kSamples - 0.5);
+      Patch here = at(panel, p + width * off);
+      here.share = 1.0 / (kSamples * kSamples);
+      auto known = std::find_if(patches.begin(), patches.end(), [&](const Patch& other) { return other.alike(here); });
+      if (known != patches.end())
+        known->share += here.share;
+      else
+        patches.push_back(std::move(here));
+    }
+  return patches;
+}
+
+Findings ClothFields::unreached(const design::Garment& garment, const std::vector<MeshedPanel>& panels) const {
+  std::vector<char> known(garment.regions.size(), 0), reached(garment.regions.size(), 0);
+  for (std::size_t p = 0; p < panels.size(); ++p)
+    for (const Entry& entry : panels_[p]) {
+      if (entry.region < 0) continue;
+      const auto r = static_cast<std::size_t>(entry.region);
+      known[r] = 1;
+      for (std::size_t v = 0; v < panels[p].mesh.at.size() && !reached[r]; ++v)
+        reached[r] = entry.test.contains(panels[p].mesh.at[v]);
+    }
+  Findings findings;
+  for (std::size_t r = 0; r < known.size(); ++r)
+    if (known[r] && !reached[r])
+      findings.push_back(
+          {"G1150",
+           Severity::warning,
+           fmt::format("region `{}` is finer than the grid: no particle lies in it", garment.regions[r].name),
+           {{garment.regions[r].origin, ""}},
+           "give the panel a finer resolution, or make the region larger"});
+  return findings;
+}
+
+}  // namespace garment::modeller

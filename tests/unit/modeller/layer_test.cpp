@@ -1,0 +1,181 @@
+// Layers and pressed regions in the particle model: the equivalent material, against formulas and other routes.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "runtime/base/portable_math.hpp"
+#include "runtime/model/dump.hpp"
+#include "runtime/modeller/layered_cloth.hpp"
+#include "runtime/modeller/modeller.hpp"
+#include "runtime/modeller/tensile_law.hpp"
+#include "tests/unit/modeller/garments.hpp"
+
+using namespace garment;
+using design::RegionShape;
+
+namespace {
+
+model::Model build(const design::Garment& g) {
+  modeller::ModelResult result = modeller::build_model(g, {});
+  for (const Finding& f : result.findings) UNSCOPED_INFO(f.code << " " << f.message);
+  REQUIRE(result.model);
+  return *result.model;
+}
+
+double sum(const std::vector<double>& values) {
+  double total = 0;
+  for (double x : values) total += x;
+  return total;
+}
+
+/// A second cloth, of other stiffness in every way.
+design::Fabric canvas() {
+  design::Fabric f;
+  f.name = "canvas";
+  f.areal_density = 0.15;
+  f.thickness = 0.4e-3;
+  f.bending_rigidity = {9e-5, 2e-5};
+  f.twist_rigidity = 3e-5;
+  f.shear_rigidity = 70;
+  f.tensile[0].max_strain = 0.02;
+  f.tensile[1].max_strain = 0.05;
+  f.friction = 0.6;
+  return f;
+}
+
+design::Layer layer(int fabric, bool fused, double grain_angle = 0, int order = 0) {
+  design::Layer l;
+  l.name = "layer";
+  l.fabric = fabric;
+  l.panel = 0;
+  l.fused = fused;
+  l.grain_angle = grain_angle;
+  l.order = order;
+  return l;
+}
+
+/// 30 x 40 cm with these layers all over.
+design::Garment sheet(std::vector<design::Layer> layers) {
+  design::Garment g = test::single(test::rectangle("cloth", 0.3, 0.4, 0.01));
+  g.fabrics.push_back(canvas());
+  g.layers = std::move(layers);
+  return g;
+}
+
+double warp_rigidity(const model::Model& m) { return m.bend_rigidity[0]; }
+double weft_rigidity(const model::Model& m) { return m.bend_rigidity[1]; }
+
+design::Region above(double y) {
+  design::Region r;
+  r.name = "part";
+  RegionShape shape;
+  shape.kind = RegionShape::Kind::above;
+  shape.size = y;
+  r.parts = {{0, shape}};
+  return r;
+}
+
+}  // namespace
+
+TEST_CASE("basted layers add mass, thickness, tension, shear and bending") {
+  const model::Model plain = build(sheet({})), m = build(sheet({layer(1, false)}));
+  const design::Fabric face = test::cloth(), inner = canvas();
+  CHECK(sum(m.mass) == Approx((face.areal_density + inner.areal_density) * 0.12).epsilon(1e-12));
+  CHECK(m.panels[0].mass == Approx(sum(m.mass)).epsilon(1e-12));
+  CHECK(m.thickness[0] == Approx(face.thickness + inner.thickness));
+  CHECK(warp_rigidity(m) == Approx(1.3e-5 + 9e-5));
+  CHECK(weft_rigidity(m) == Approx(0.7e-5 + 2e-5));
+  CHECK(sum(m.cell_twist) == Approx(sum(plain.cell_twist) * (0.5 + 3) / 0.5));
+  CHECK(m.cell_shear[0] == Approx(face.shear_rigidity + inner.shear_rigidity));
+  CHECK(m.friction[0] == Approx(inner.friction));  // it lies on the body
+  for (std::size_t s : {std::size_t{0}, m.spring.size() / 2})
+    for (double strain : {-0.01, 0.004, 0.02, 0.055, 0.1}) {
+      const int weft = m.spring_law[s] == m.spring_law[0] ? plain.spring_law[0] % 2 : 1 - plain.spring_law[0] % 2;
+      const double expected = modeller::tensile_force(plain.laws[plain.spring_law[s]], strain) +
+                              modeller::tensile_force(modeller::make_tensile_law(inner.tensile[weft]), strain);
+      CHECK(modeller::tensile_force(m.laws[m.spring_law[s]], strain) == Approx(expected).epsilon(1e-5));
+    }
+}
+
+TEST_CASE("n basted layers of one cloth bend n + 1 times as stiffly; their order says nothing") {
+  std::vector<design::Layer> layers;
+  for (int n = 1; n < 4; ++n) {
+    layers.push_back(layer(0, false, 0, n - 1));
+    const model::Model m = build(sheet(layers));
+    CHECK(warp_rigidity(m) == Approx((n + 1) * 1.3e-5));
+    CHECK(weft_rigidity(m) == Approx((n + 1) * 0.7e-5));
+  }
+  const model::Model one = build(sheet({layer(0, false, 0, 0), layer(1, false, 0.3, 1)})),
+                     other = build(sheet({layer(1, false, 0.3, 0), layer(0, false, 0, 1)}));
+  for (std::size_t k = 0; k < one.bend.size(); ++k) CHECK(one.bend_rigidity[k] == Approx(other.bend_rigidity[k]));
+  CHECK(sum(one.mass) == Approx(sum(other.mass)));
+}
+
+TEST_CASE("two fused cloths of one kind are stiffer by half the coupled membrane") {
+  // sum K (z - z0)^2 of two equal plies at the distance T of their middles is K T^2 / 2.
+  const model::Model m = build(sheet({layer(0, true)}));
+  const design::Fabric f = test::cloth();
+  for (int direction : {0, 1}) {
+    const double k = modeller::make_tensile_law(f.tensile[direction]).slope.front(), t = f.thickness;
+    const double expected = 2 * f.bending_rigidity[direction] + modeller::kFusedCoupling * k * t * t / 2;
+    CHECK((direction == 0 ? warp_rigidity(m) : weft_rigidity(m)) == Approx(expected).epsilon(1e-9));
+  }
+  // Another cloth on top shifts the neutral plane: by the formula for plies along one line.
+  design::Garment g = sheet({layer(1, true)});
+  g.fabrics[0].shear_rigidity = g.fabrics[1].shear_rigidity = 0;
+  const design::Fabric c = canvas();
+  const double k0 = modeller::make_tensile_law(f.tensile[0]).slope.front(), k1 = modeller::make_tensile_law(c.tensile[0]).slope.front();
+  const double apart = (f.thickness + c.thickness) / 2, coupled = k0 * k1 / (k0 + k1) * apart * apart;
+  CHECK(warp_rigidity(build(g)) == Approx(1.3e-5 + 9e-5 + modeller::kFusedCoupling * coupled).epsilon(1e-9));
+}
+
+TEST_CASE("a layer's grain may lie at any angle") {
+  const design::Fabric face = test::cloth(), c = canvas();
+  const model::Model across = build(sheet({layer(1, false, portable::kPi / 2)}));
+  CHECK(warp_rigidity(across) == Approx(face.bending_rigidity[0] + c.bending_rigidity[1]).epsilon(1e-9));
+  CHECK(weft_rigidity(across) == Approx(face.bending_rigidity[1] + c.bending_rigidity[0]).epsilon(1e-9));
+  // B(45) = (B1 + B2) / 4 + Ct, G(45) = (K1 + K2) / 4
+  const model::Model bias = build(sheet({layer(1, false, portable::kPi / 4)}));
+  const double b45 = (c.bending_rigidity[0] + c.bending_rigidity[1]) / 4 + c.twist_rigidity;
+  CHECK(warp_rigidity(bias) == Approx(face.bending_rigidity[0] + b45).epsilon(1e-9));
+  CHECK(weft_rigidity(bias) == Approx(face.bending_rigidity[1] + b45).epsilon(1e-9));
+  double slopes = 0;
+  for (int k : {0, 1}) slopes += modeller::make_tensile_law(c.tensile[k]).slope.front();
+  CHECK(bias.cell_shear[0] == Approx(face.shear_rigidity + slopes / 4).epsilon(1e-9));
+}
+
+TEST_CASE("a layer in a region weighs as much as its area, on and off the grid") {
+  for (double y : {0.2, 0.2025, 0.205, 0.2075}) {
+    design::Garment g = sheet({layer(1, false)});
+    g.regions = {above(y)};
+    g.layers[0].region = 0;
+    const double added = sum(build(g).mass) - sum(build(sheet({})).mass);
+    CHECK(added == Approx(0.15 * 0.3 * (0.4 - y)).epsilon(1e-9));
+  }
+  // The fitted stencils of the border carry it too: the same layer over a region that is everything.
+  design::Garment all = sheet({layer(1, true, 0.4)}), part = all;
+  part.regions = {above(-1)};
+  part.layers[0].region = 0;
+  CHECK(model::model_hash(build(all)) == model::model_hash(build(part)));
+}
+
+TEST_CASE("a region that is shrunk or drawn out has shorter or longer threads at rest") {
+  design::Garment g = sheet({});
+  g.regions = {above(-1)};
+  design::Press press;
+  press.kind = design::Press::Kind::shrink;
+  press.region = 0;
+  press.warp = 0.01;
+  press.weft = 0.03;
+  press.factor = 0.5;
+  g.presses = {press};
+  const model::Model plain = build(sheet({})), m = build(g);
+  REQUIRE(m.spring.size() == plain.spring.size());
+  for (std::size_t s = 0; s < m.spring.size(); ++s) {
+    const bool warp = std::abs(plain.start[plain.spring[s][0]].x() - plain.start[plain.spring[s][1]].x()) < 1e-9;
+    CHECK(m.spring_rest[s] / plain.spring_rest[s] == Approx(warp ? 0.995 : 0.985).epsilon(1e-12));
+  }
+  CHECK(sum(m.mass) == Approx(sum(plain.mass)).epsilon(1e-12));
+  g.presses[0].kind = design::Press::Kind::extend;
+  const model::Model longer = build(g);
+  CHECK(longer.spring_rest[0] > plain.spring_rest[0]);
+}
