@@ -81,10 +81,19 @@ Matrix3d plate_at(const std::vector<MeshedPanel>& panels, const ClothFields& fie
   return turn.transpose() * ClothAt(fields, panel, p.frame, at, std::max(p.frame.hp, p.frame.hq)).plate() * turn;
 }
 
+/// A seam that is sewn stiffer or softer than its cloth, at one of its particles: who comes before and after along it, and by
+/// how much more (of the cloth's rigidity, times a width, m) it resists bending along itself.
+struct Stiffened {
+  Index before = -1, after = -1;
+  double more = 0;
+};
+
 /// A fitted stencil with the plate matrix of each panel that meets at its particle.
 struct Fit {
   CurvatureFit curvature;
   std::vector<std::pair<Index, Matrix3d>> plate;
+  Stiffened seam{};
+  Vector2d along{0, 0};  // the seam in the chart
 };
 
 /// Adds the plate matrices of the panels in the chart's fan: the area mean over each panel's triangles.
@@ -114,9 +123,49 @@ void add_plates(const Sheet& sheet, const std::vector<MeshedPanel>& panels, cons
   for (std::size_t slot = 0; slot < area.size(); ++slot) fit.plate[slot].second /= area[slot];
 }
 
+/// The stiffened seam at each particle.
+std::vector<Stiffened> stiffened_seams(const design::Garment& garment, const model::Model& model) {
+  std::vector<Stiffened> at(model.n_particles());
+  for (const design::Seam& seam : garment.seams) {
+    if (seam.finish.stiffness == 1) continue;
+    double width = 0;  // of the allowances on both sides
+    for (const design::SeamSide& side : seam.sides)
+      if (!side.parts.empty()) width += sewn_allowance(garment, seam, side.parts[0]);
+    for (const model::SeamChain& chain : model.seams) {
+      if (chain.name != seam.name) continue;
+      for (std::size_t k = 0; k < chain.particles.size(); ++k)
+        at[chain.particles[k]] = {chain.particles[k > 0 ? k - 1 : k],
+                                  chain.particles[std::min(k + 1, chain.particles.size() - 1)],
+                                  (seam.finish.stiffness - 1) * width};
+    }
+  }
+  return at;
+}
+
+/// Where the seam runs in the chart, as long as it is from the particle before to the one after.
+Vector2d seam_in(const Chart& chart, const Stiffened& seam) {
+  Vector2d along(0, 0);
+  for (const Chart::Point& p : chart.points) {
+    if (p.particle == seam.after) along += p.at;
+    if (p.particle == seam.before) along -= p.at;
+  }
+  return along;
+}
+
+/// What the seam adds to the plate of a stencil of this area, m^2: spread over it, the same on any grid.
+void stiffen(const Stiffened& seam, const Vector2d& along, double area, Matrix3d& plate) {
+  if (seam.more == 0 || !(along.norm() > 0)) return;
+  const Vector2d t = along.normalized();
+  const Eigen::Vector3d bent(t.x() * t.x(), t.y() * t.y(), t.x() * t.y());  // curvature 1 along the seam
+  const double rigidity = bent.dot(plate * bent), length = along.norm() / 2;
+  const Eigen::Vector3d row = seen_along(t).row(0);
+  plate += seam.more * length / area * rigidity * row * row.transpose();
+}
+
 std::vector<Fit> make_fits(const Sheet& sheet, const std::vector<MeshedPanel>& panels,
                            const ClothFields& fields, const model::Model& model,
                            const std::vector<Index>& at, const std::vector<char>& joined) {
+  const std::vector<Stiffened> seams = stiffened_seams(fields.garment(), model);
   std::vector<Fit> fits(at.size());
   parallel_for(at.size(), 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
@@ -128,6 +177,8 @@ std::vector<Fit> make_fits(const Sheet& sheet, const std::vector<MeshedPanel>& p
         fits[k].curvature = fit_curvature(*chart, at[k], joined[at[k]] != 0);
       }
       add_plates(sheet, panels, fields, model, *chart, fits[k]);
+      fits[k].seam = seams[at[k]];
+      fits[k].along = seam_in(*chart, fits[k].seam);
     }
   });
   return fits;
@@ -233,7 +284,9 @@ void add_fit(const Fit& fit, const Areas& areas, model::Model& model) {
     sum += a.area * *own;
   }
   sum /= area;
-  add_stencil(fit.curvature.particle, fit.curvature.weight, area, sum, model);
+  Matrix3d sewn = sum;
+  stiffen(fit.seam, fit.along, area, sewn);
+  add_stencil(fit.curvature.particle, fit.curvature.weight, area, sewn, model);
   const Matrix3d stiff = Matrix3d::Identity() * (kResidualShare * (sum(0, 0) + sum(1, 1)) / 2);
   for (const auto& group : fit.curvature.residual)
     add_stencil(fit.curvature.particle, group, area, stiff, model);

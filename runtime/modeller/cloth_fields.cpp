@@ -13,6 +13,7 @@ namespace {
 using design::Point2;
 using design::RegionFactors;
 
+constexpr double kUsualAllowance = 0.01;  // m, of a seam that is pressed and says nothing of it
 constexpr int kSamples = 4;  // along each side of a square that a border crosses
 
 /// Starch stiffens: B and twist by its factor, G by the square root of it.
@@ -38,7 +39,13 @@ bool changes_length(const design::Press& press) {
 
 }  // namespace
 
-ClothFields::ClothFields(const design::Garment& garment) : garment_(garment), panels_(garment.panels.size()) {
+double sewn_allowance(const design::Garment& garment, const design::Seam& seam, const design::EdgePart& part) {
+  const double own = design::edge_of(garment.panels[part.panel], part).allowance;
+  return own > 0 ? own : seam.finish.allowance.value_or(kUsualAllowance);
+}
+
+ClothFields::ClothFields(const design::Garment& garment)
+    : garment_(garment), layers_(garment.layers), panels_(garment.panels.size()) {
   for (const design::Fabric& fabric : garment.fabrics)
     for (const design::Tensile& tensile : fabric.tensile) slope_.push_back(make_tensile_law(tensile).slope.front());
   for (std::size_t r = 0; r < garment.regions.size(); ++r) {
@@ -46,19 +53,23 @@ ClothFields::ClothFields(const design::Garment& garment) : garment_(garment), pa
     patch.factors = garment.regions[r].factors;
     for (const design::Starch& starch : garment.starches)
       if (starch.region == static_cast<int>(r)) patch.factors = patch.factors * starched(starch.factor);
-    add(garment, static_cast<int>(r), -1, patch);
+    add(static_cast<int>(r), -1, patch);
   }
   for (const design::Press& press : garment.presses)
-    if (changes_length(press)) add(garment, press.region, -1, pressed(press));
+    if (changes_length(press)) add(press.region, -1, pressed(press));
   for (std::size_t k = 0; k < garment.layers.size(); ++k) {
     Patch patch;
     patch.layers.push_back(static_cast<int>(k));
-    add(garment, garment.layers[k].region, garment.layers[k].panel, patch);
+    add(garment.layers[k].region, garment.layers[k].panel, patch);
   }
+  for (const design::Hem& hem : garment.hems)
+    for (const design::EdgePart& part : hem.parts) add_along({part}, hem.turn, garment.panels[part.panel].fabric, hem.to);
+  for (const design::Seam& seam : garment.seams) add_allowances(seam);
 }
 
 /// What `patch` says holds in the region, on all its panels or on one; without a region on the whole panel.
-void ClothFields::add(const design::Garment& garment, int region, int only_panel, const Patch& patch) {
+void ClothFields::add(int region, int only_panel, const Patch& patch) {
+  const design::Garment& garment = garment_;
   if (patch.alike(Patch{})) return;
   auto add_to = [&](int panel, const design::RegionShape& shape) {
     if (panel < 0 || panel >= static_cast<int>(garment.panels.size())) return;
@@ -68,6 +79,44 @@ void ClothFields::add(const design::Garment& garment, int region, int only_panel
   if (region < 0 || region >= static_cast<int>(garment.regions.size())) return add_to(only_panel, design::RegionShape{});
   for (const design::RegionPart& part : garment.regions[region].parts)
     if (only_panel < 0 || part.panel == only_panel) add_to(part.panel, part.shape);
+}
+
+/// A strip of cloth beside the parts, sewn down or pressed flat: a basted layer, outside those that are stated.
+void ClothFields::add_along(const std::vector<design::EdgePart>& parts, double width, int fabric, design::Facing side) {
+  constexpr int kOutside = 1000;
+  if (!(width > 0) || parts.empty()) return;
+  const int panel = parts[0].panel;
+  design::Layer strip;
+  strip.fabric = fabric;
+  strip.panel = panel;
+  strip.fused = false;
+  strip.grain_angle = garment_.panels[panel].grain_angle;
+  strip.side = side;
+  strip.order = kOutside;
+  design::RegionShape shape;
+  shape.kind = design::RegionShape::Kind::near;
+  shape.parts = parts;
+  shape.size = width;
+  Patch patch;
+  patch.layers.push_back(static_cast<int>(layers_.size()));
+  layers_.push_back(strip);
+  panels_[panel].push_back({design::RegionTest(garment_.panels[panel], shape), patch, -1});
+}
+
+/// Allowances pressed open lie on the back of their own pieces, those pressed to one side all on that one.
+void ClothFields::add_allowances(const design::Seam& seam) {
+  using Ironed = design::SeamFinish::Ironed;
+  if (seam.finish.ironed == Ironed::no) return;
+  for (std::size_t on = 0; on < seam.sides.size(); ++on) {
+    if (seam.finish.ironed == Ironed::toward && static_cast<int>(on) != seam.finish.ironed_toward) continue;
+    for (const design::EdgePart& part : seam.sides[on].parts)
+      for (std::size_t from = 0; from < seam.sides.size(); ++from) {
+        if (seam.sides[from].parts.empty() || (seam.finish.ironed == Ironed::open && from != on)) continue;
+        // Of several pieces on a side the first says what cloth it is.
+        const design::EdgePart& own = from == on ? part : seam.sides[from].parts[0];
+        add_along({part}, sewn_allowance(garment_, seam, own), garment_.panels[own.panel].fabric, design::Facing::back);
+      }
+  }
 }
 
 Patch ClothFields::at(std::size_t panel, const Point2& p) const {

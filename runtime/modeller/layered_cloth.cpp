@@ -35,11 +35,12 @@ LayeredCloth::LayeredCloth(const ClothFields& fields, std::size_t panel, const G
   const design::Garment& garment = fields.garment();
   const int fabric = garment.panels[panel].fabric;
   plies_.push_back({fabric, Vector2d(1, 0), true, 0});
+  const std::vector<design::Layer>& all = fields.layers();
   std::vector<int> layers = patch.layers;
-  std::stable_sort(layers.begin(), layers.end(), [&](int a, int b) { return garment.layers[a].order < garment.layers[b].order; });
+  std::stable_sort(layers.begin(), layers.end(), [&](int a, int b) { return all[a].order < all[b].order; });
   double height[2] = {garment.fabrics[fabric].thickness / 2, garment.fabrics[fabric].thickness / 2};  // on face and back
   for (int k : layers) {
-    const design::Layer& layer = garment.layers[k];
+    const design::Layer& layer = all[k];
     const design::Point2 warp(-portable::sin(layer.grain_angle), portable::cos(layer.grain_angle));
     const design::Point2 along = frame.warp(), across(-along.y(), along.x());
     const bool face = layer.side == design::Facing::face;

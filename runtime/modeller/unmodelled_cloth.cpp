@@ -12,10 +12,8 @@ void find_in_finish(const design::Seam& seam, const SayUnmodelled& say) {
   if (f.turned) of_seam("turned");
   if (f.lap != 0) of_seam("lapped");
   if (f.fold_angle) of_seam("fold");
-  if (f.ironed != design::SeamFinish::Ironed::no) of_seam("ironed");
   if (f.tension != 0) of_seam("tension");
   if (f.slack != 0) of_seam("slack");
-  if (f.stiffness != 1) of_seam("stiffness");
 }
 
 template <class List>
@@ -27,7 +25,6 @@ void say_all(const std::string& kind, const List& list, const SayUnmodelled& say
 
 void find_unmodelled_cloth(const design::Garment& garment, const SayUnmodelled& say) {
   for (const design::Seam& seam : garment.seams) find_in_finish(seam, say);
-  say_all("hem", garment.hems, say);
   say_all("tack", garment.tacks, say);
   say_all("button", garment.buttons, say);
   say_all("zip", garment.zips, say);

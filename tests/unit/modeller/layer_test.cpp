@@ -179,3 +179,86 @@ TEST_CASE("a region that is shrunk or drawn out has shorter or longer threads at
   const model::Model longer = build(g);
   CHECK(longer.spring_rest[0] > plain.spring_rest[0]);
 }
+
+TEST_CASE("a hem is its own cloth twice, as wide as it is turned") {
+  design::Garment g = sheet({});
+  design::Hem hem;
+  hem.name = "hem";
+  hem.parts = {{0, 0, 0, 0.3}};
+  hem.turn = 0.04;
+  g.hems = {hem};
+  const model::Model plain = build(sheet({})), m = build(g);
+  CHECK(sum(m.mass) - sum(plain.mass) == Approx(0.2 * 0.3 * 0.04).epsilon(1e-9));
+  for (std::size_t k = 0; k < m.bend.size(); ++k) {
+    const double up = m.start[m.bend[k][1]].y() - 0.04, in = up < -1e-9 ? 2 : up < 1e-9 ? 1.5 : 1;
+    CHECK(m.bend_rigidity[k] == Approx(in * plain.bend_rigidity[k]));
+  }
+}
+
+namespace {
+
+/// Two pieces of 20 x 30 cm sewn along their sides.
+design::Garment sewn(const design::SeamFinish& finish, double h = 0.01) {
+  design::Garment g;
+  g.fabrics = {test::cloth()};
+  g.panels = {test::rectangle("one", 0.2, 0.3, h), test::rectangle("two", 0.2, 0.3, h)};
+  g.panels[1].placement = test::flat(0.2);
+  design::Seam seam;
+  seam.name = "middle";
+  seam.sides.resize(2);
+  seam.sides[0].parts = {{0, 1, 0, 0.3}};
+  seam.sides[1].parts = {{1, 3, 0.3, 0}};
+  seam.ratio = {1};
+  seam.finish = finish;
+  g.seams = {seam};
+  return g;
+}
+
+double mass_of(const model::Model& m, int panel) { return m.panels[panel].mass; }
+
+}  // namespace
+
+TEST_CASE("allowances lie where the iron put them") {
+  design::SeamFinish open, toward;
+  open.ironed = design::SeamFinish::Ironed::open;
+  open.allowance = 0.02;
+  toward = open;
+  toward.ironed = design::SeamFinish::Ironed::toward;
+  toward.ironed_toward = 1;
+  const double piece = 0.2 * 0.06, strip = 0.2 * 0.3 * 0.02;
+  CHECK(mass_of(build(sewn({})), 0) == Approx(piece));
+  for (int panel : {0, 1}) CHECK(mass_of(build(sewn(open)), panel) == Approx(piece + strip));
+  CHECK(mass_of(build(sewn(toward)), 0) == Approx(piece));
+  CHECK(mass_of(build(sewn(toward)), 1) == Approx(piece + 2 * strip));
+}
+
+TEST_CASE("a stiffened seam resists bending along itself, by its allowances' width on any grid") {
+  // Bent along the seam with curvature 1/m: energy B length / 2 (width of both pieces + (f - 1) width of the allowances).
+  design::SeamFinish finish;
+  finish.stiffness = 5;
+  finish.allowance = 0.015;
+  for (double h : {0.01, 0.02}) {
+    const model::Model plain = build(sewn({}, h)), m = build(sewn(finish, h));
+    auto bent = [](const model::Model& model, bool along) {
+      double energy = 0;
+      for (std::size_t k = 0; k < model.fit_area.size(); ++k) {
+        Eigen::Matrix3d curvature = Eigen::Matrix3d::Zero();  // columns: 11, 22, 12
+        for (model::Index j = model.fit_begin[k]; j < model.fit_begin[k + 1]; ++j) {
+          const model::Vector3d& at = model.start[model.fit_particle[j]];
+          const double t = along ? at.y() : at.x();
+          curvature += model::Vector3d(at.x(), at.y(), t * t / 2) * model.fit_weight[j].transpose();
+        }
+        const Eigen::Vector3d c = curvature.row(2);
+        const auto& d = model.fit_rigidity[k];
+        Eigen::Matrix3d plate;
+        plate << d[0], d[3], d[4], d[3], d[1], d[5], d[4], d[5], d[2];
+        energy += model.fit_area[k] / 2 * c.dot(plate * c);
+      }
+      return energy;
+    };
+    // The ends of the seam lie on the border and have no stencil: their neighbours answer for half a cell more.
+    const double more = bent(m, true) - bent(plain, true);
+    CHECK(more == Approx(1.3e-5 * 0.3 / 2 * 4 * 0.03).epsilon(0.15));
+    CHECK(bent(m, false) == Approx(bent(plain, false)).epsilon(1e-6));
+  }
+}
