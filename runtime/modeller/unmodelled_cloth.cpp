@@ -1,4 +1,4 @@
-// Of seams, closures, layers and pressing: what the modeller leaves out.
+// Of seams, hems, layers and pressing: what the modeller leaves out.
 #include "runtime/modeller/unmodelled_cloth.hpp"
 
 namespace garment::modeller {
@@ -28,9 +28,6 @@ void say_all(const std::string& kind, const List& list, const SayUnmodelled& say
 void find_unmodelled_cloth(const design::Garment& garment, const SayUnmodelled& say) {
   for (const design::Seam& seam : garment.seams) find_in_finish(seam, say);
   say_all("hem", garment.hems, say);
-  say_all("tack", garment.tacks, say);
-  say_all("button", garment.buttons, say);
-  say_all("zip", garment.zips, say);
   say_all("layer", garment.layers, say);
   say_all("pad", garment.pads, say);
   say_all("iron", garment.presses, say);
