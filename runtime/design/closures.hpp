@@ -21,7 +21,7 @@ struct Button {
   std::vector<ButtonHole> holes;  ///< from the button downwards
   double mass = 1e-3;             ///< kg
   double diameter = 0.015;        ///< m
-  double shank = 3e-3;            ///< m between the cloth and the button
+  double shank = 3e-3;            ///< m of thread between the cloth and the button
   Kind kind = Kind::sew_through;
 };
 

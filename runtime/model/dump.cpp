@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -75,7 +76,9 @@ std::uint64_t state_hash(const State& state) {
 
 std::uint64_t model_hash(const Model& model) {
   Fnv hash;
-#define HASH_ARRAY(name, rows, refers_to, sign, unit) hash.add(model.name);
+  // Ties count where there are any: a garment without closures is the model it was before the Model knew of them.
+#define HASH_ARRAY(name, rows, refers_to, sign, unit) \
+  if (Rows::rows != Rows::tie || !model.name.empty()) hash.add(model.name);
   GARMENT_MODEL_ARRAYS(HASH_ARRAY)
 #undef HASH_ARRAY
   for (const TensileLaw& law : model.laws) {
@@ -103,6 +106,7 @@ std::string summary_text(const Model& model) {
     mass += p.mass;
     area += p.area;
   }
+  for (const Closure& c : model.closures) mass += c.mass;
   std::string text;
   auto line = [&](const std::string& l) { text += l + "\n"; };
   line(fmt::format("particles {}, vertices {}, triangles {}", model.n_particles(), model.n_vertices(),
@@ -117,6 +121,10 @@ std::string summary_text(const Model& model) {
   for (const SeamChain& s : model.seams)
     line(fmt::format("seam {}: {} particles, {} mm", s.name, s.particles.size(),
                      format_number(s.length * 1000, 6)));
+  for (std::size_t c = 0; c < model.closures.size(); ++c) {
+    const auto n = std::count(model.tie_closure.begin(), model.tie_closure.end(), static_cast<Index>(c));
+    line(fmt::format("closure {}: {} {}", model.closures[c].name, n, n == 1 ? "tie" : "ties"));
+  }
   line("hash " + hash_text(model_hash(model)));
   return text;
 }
@@ -151,6 +159,12 @@ std::string dump_json(const Model& model) {
                        [](const SeamChain& s) {
                          return fmt::format(R"({{"name": {}, "length": {}, "particles": {}}})",
                                             quoted(s.name), number(s.length), list_text(s.particles));
+                       }) +
+          ",\n";
+  text += "  \"closures\": " +
+          objects_text(model.closures,
+                       [](const Closure& c) {
+                         return fmt::format(R"({{"name": {}, "mass": {}}})", quoted(c.name), number(c.mass));
                        }) +
           ",\n";
   text += "  \"gravity\": " + row_text(model.gravity) + ",\n";

@@ -43,6 +43,17 @@ struct SeamChain {
   double length = 0;            ///< sewn length of the first side, m
 };
 
+/// What a button, hook, snap or tack brings into the model, for reports.
+struct Closure {
+  std::string name;
+  OriginId origin;
+  double mass = 0;              ///< kg, of the button itself; the particles of its place carry it
+};
+
+/// By how much a tie may be too long before its pull no longer grows, m: closures may start far apart, and are brought
+/// together without tearing at the cloth.
+inline constexpr double kTieReach = 5e-3;
+
 enum class HoldKind : std::uint8_t {
   point,   ///< stays at `hold_point`
   plane,   ///< stays in the plane through `hold_point` with normal `hold_normal` (sliding along a level)
@@ -101,15 +112,30 @@ struct Model {
   std::vector<HoldKind> hold_kind;
   std::vector<Vector3d> hold_point;
   std::vector<Vector3d> hold_normal;
+  // --- ties: threads between two places of the cloth. A place is a point of a triangle, three particles with weights
+  //     that sum to 1; a place at a particle repeats it. With x = sum w[k] x_k, y = sum w[3+k] x_(3+k) and the gap
+  //     g = |x - y| - length: E = k g^2 / 2 for 0 < g < kTieReach, beyond it the pull k kTieReach stays; slack, E = 0
+  std::vector<Indices<6>> tie;                   ///< particle ids: of the one place, of the other
+  std::vector<std::array<double, 6>> tie_weights;
+  std::vector<double> tie_length;                ///< L, m
+  std::vector<double> tie_stiffness;             ///< k, N/m
+  std::vector<Index> tie_closure;                ///< index into closures
   // --- tables
   std::vector<TensileLaw> laws;
   std::vector<PanelRange> panels;
   std::vector<SeamChain> seams;
+  std::vector<Closure> closures;
   Vector3d gravity{0, -9.80665, 0};
 
   std::size_t n_particles() const { return mass.size(); }
   std::size_t n_vertices() const { return vertex_particle.size(); }
   std::size_t n_triangles() const { return triangle.size(); }
+  /// From one place of tie t to the other, with the particles at `x`, m.
+  Vector3d tie_span(std::size_t t, const std::vector<Vector3d>& x) const {
+    Vector3d span = Vector3d::Zero();
+    for (int k = 0; k < 3; ++k) span += tie_weights[t][3 + k] * x[tie[t][3 + k]] - tie_weights[t][k] * x[tie[t][k]];
+    return span;
+  }
   /// Particle ids of triangle t.
   Indices<3> corners(std::size_t t) const {
     return {vertex_particle[triangle[t][0]], vertex_particle[triangle[t][1]], vertex_particle[triangle[t][2]]};

@@ -20,8 +20,10 @@ enum class Rows {
   fit_bound,
   fit_entry,
   hold,
+  tie,
   panel,
   law,
+  closure,
   none
 };
 
@@ -50,10 +52,14 @@ inline std::size_t row_count(const Model& m, Rows rows) {
       return m.fit_particle.size();
     case Rows::hold:
       return m.hold_particle.size();
+    case Rows::tie:
+      return m.tie.size();
     case Rows::panel:
       return m.panels.size();
     case Rows::law:
       return m.laws.size();
+    case Rows::closure:
+      return m.closures.size();
     case Rows::none:
       break;
   }
@@ -101,5 +107,10 @@ inline std::size_t row_count(const Model& m, Rows rows) {
   X(hold_particle,    hold,      particle,  any,          "")      \
   X(hold_kind,        hold,      none,      any,          "")      \
   X(hold_point,       hold,      none,      any,          "m")     \
-  X(hold_normal,      hold,      none,      any,          "")
+  X(hold_normal,      hold,      none,      any,          "")      \
+  X(tie,              tie,       particle,  any,          "")      \
+  X(tie_weights,      tie,       none,      not_negative, "")      \
+  X(tie_length,       tie,       none,      not_negative, "m")     \
+  X(tie_stiffness,    tie,       none,      positive,     "N/m")   \
+  X(tie_closure,      tie,       closure,   any,          "")
 // clang-format on

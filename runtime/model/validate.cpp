@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "runtime/model/array_rows.hpp"
@@ -67,6 +68,16 @@ class Check {
           return fail(fmt::format("seam `{}` names no particle", seam.name));
   }
 
+  void ties() {
+    for (std::size_t k = 0; k < std::min(m_.tie.size(), m_.tie_weights.size()); ++k) {
+      const auto& w = m_.tie_weights[k];
+      if (!(std::abs(w[0] + w[1] + w[2] - 1) < 1e-9 && std::abs(w[3] + w[4] + w[5] - 1) < 1e-9))
+        return fail(fmt::format("the weights of tie {} do not sum to 1", k));
+    }
+    for (const Closure& c : m_.closures)
+      if (!(c.mass >= 0 && std::isfinite(c.mass))) return fail(fmt::format("closure `{}` has no mass", c.name));
+  }
+
   void laws() {
     for (std::size_t k = 0; k < m_.laws.size(); ++k) {
       const TensileLaw& law = m_.laws[k];
@@ -102,6 +113,7 @@ Findings validate(const Model& model) {
 #undef CHECK_ARRAY
   check.ranges();
   check.laws();
+  check.ties();
   return std::move(check.findings);
 }
 

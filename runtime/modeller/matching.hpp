@@ -62,7 +62,7 @@ struct Matched {
   std::vector<std::vector<StretchTuple>> tuples;  ///< per matching, along its sides
 };
 
-/// Seams, then darts, then symmetric halves. Sides whose parts lie wholly in a dart's mouth or name nothing
+/// Seams, then the closed parts of zips, then darts, then symmetric halves. Sides whose parts lie wholly in a dart's mouth or name nothing
 /// are reported. Adds breaks to the outlines at the ends of parts; parts that end within 0.2 h of a break end
 /// there.
 std::vector<Matching> collect_matchings(const design::Garment& garment, std::vector<BorderPanel>& panels,

@@ -66,7 +66,8 @@ void finish(Side& side) {
   }
 }
 
-void collect_seam(const design::Garment& garment, const design::Seam& seam, std::vector<BorderPanel>& panels,
+/// `kind` is what messages call it: a zip is a seam here.
+void collect_seam(const design::Garment& garment, const design::Seam& seam, const char* kind, std::vector<BorderPanel>& panels,
                   std::vector<Matching>& result, Findings& findings) {
   Matching matching;
   matching.name = seam.name;
@@ -78,7 +79,7 @@ void collect_seam(const design::Garment& garment, const design::Seam& seam, std:
       if (!is_valid(garment, part)) {
         findings.push_back({"G0550",
                             Severity::error,
-                            fmt::format("a side of seam `{}` names an edge that does not exist", seam.name),
+                            fmt::format("a side of {} `{}` names an edge that does not exist", kind, seam.name),
                             {{declared.origin.value ? declared.origin : seam.origin, ""}},
                             "name edges of declared panels"});
         return;
@@ -92,7 +93,7 @@ void collect_seam(const design::Garment& garment, const design::Seam& seam, std:
     if (side.length <= kTiny) {
       findings.push_back({"G0550",
                           Severity::error,
-                          fmt::format("a side of seam `{}` has no length to sew", seam.name),
+                          fmt::format("a side of {} `{}` has no length to sew", kind, seam.name),
                           {{declared.origin.value ? declared.origin : seam.origin, ""}},
                           "sew a part of an edge that has length and is not taken in by a dart"});
       return;
@@ -102,12 +103,40 @@ void collect_seam(const design::Garment& garment, const design::Seam& seam, std:
   if (matching.sides.size() < 2) {
     findings.push_back({"G0550",
                         Severity::error,
-                        fmt::format("seam `{}` has {} side", seam.name, matching.sides.size()),
+                        fmt::format("{} `{}` has {} side", kind, seam.name, matching.sides.size()),
                         {{seam.origin, ""}},
                         "a seam joins two sides or more"});
     return;
   }
   result.push_back(std::move(matching));
+}
+
+/// Undoes the last `open` of a side, by its sewn length.
+void undo_end(Side& side, double open, std::vector<BorderPanel>& panels) {
+  const double closed = (1 - open) * side.length;
+  while (!side.segments.empty() && side.segments.back().begin >= closed - kTiny) side.segments.pop_back();
+  if (!side.segments.empty()) {
+    SideSegment& last = side.segments.back();
+    const double rest = closed - last.begin, end = last.t0 < last.t1 ? last.t0 + rest : last.t0 - rest;
+    if (rest < last.length() - kTiny) {
+      Piece& piece = panels[last.panel].outline.pieces[last.piece];
+      last.t1 = break_at(piece, end, kSnap * panels[last.panel].h);
+      if (last.t1 == last.t0) last.t1 = break_at(piece, end, 0);
+    }
+  }
+  finish(side);
+}
+
+/// As far as it is closed, a zip is a seam.
+void collect_zip(const design::Garment& garment, const design::Zip& zip, std::vector<BorderPanel>& panels,
+                 std::vector<Matching>& result, Findings& findings) {
+  design::Seam seam{zip.name, zip.origin, {{zip.side_origin[0], zip.sides[0]}, {zip.side_origin[1], zip.sides[1]}}, {}};
+  const std::size_t before = result.size();
+  collect_seam(garment, seam, "zip", panels, result, findings);
+  if (result.size() == before) return;
+  std::vector<Side>& sides = result.back().sides;
+  for (Side& side : sides) undo_end(side, std::clamp(zip.open, 0.0, 1.0), panels);
+  if (sides[0].length <= kTiny || sides[1].length <= kTiny) result.pop_back();  // wholly open
 }
 
 void collect_darts(std::vector<BorderPanel>& panels, std::vector<Matching>& result) {
@@ -216,7 +245,8 @@ void collect_halves(std::vector<BorderPanel>& panels, std::vector<Matching>& res
 std::vector<Matching> collect_matchings(const design::Garment& garment, std::vector<BorderPanel>& panels,
                                         Findings& findings) {
   std::vector<Matching> result;
-  for (const design::Seam& seam : garment.seams) collect_seam(garment, seam, panels, result, findings);
+  for (const design::Seam& seam : garment.seams) collect_seam(garment, seam, "seam", panels, result, findings);
+  for (const design::Zip& zip : garment.zips) collect_zip(garment, zip, panels, result, findings);
   collect_darts(panels, result);
   collect_leg_darts(panels, result);
   collect_inside_darts(panels, result);

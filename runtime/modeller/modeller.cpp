@@ -9,6 +9,7 @@
 #include "runtime/base/parallel.hpp"
 #include "runtime/design/fineness.hpp"
 #include "runtime/modeller/bending.hpp"
+#include "runtime/modeller/closures.hpp"
 #include "runtime/modeller/cloth_fields.hpp"
 #include "runtime/modeller/holds.hpp"
 #include "runtime/modeller/placement.hpp"
@@ -174,7 +175,10 @@ ModelResult build_model(const design::Garment& garment, const std::vector<body::
   if (!add_particles(garment, panels, areas, particle, fields, model, findings)) return result;
   add_elements(garment, panels, fields, model);
   add_bending(panels, fields, model);
-  if (!place_panels(garment, bodies, model, findings, options.dress)) return result;
+  // What a tack goes to depends on where the panels lie: the model must not depend on whether they were dressed for it.
+  const bool dress = options.dress || !garment.tacks.empty();
+  if (!place_panels(garment, bodies, model, findings, dress)) return result;
+  add_closures(garment, model, findings);
   add_holds(garment, bodies, outlines, borders, panels, model, findings);
   if (!has_errors(findings)) result.model = std::move(model);
   return result;

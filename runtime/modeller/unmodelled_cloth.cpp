@@ -1,4 +1,4 @@
-// Of seams, closures, layers and pressing: what the modeller leaves out.
+// Of seams, hems, layers and pressing: what the modeller leaves out.
 #include "runtime/modeller/unmodelled_cloth.hpp"
 
 namespace garment::modeller {
@@ -25,9 +25,6 @@ void say_all(const std::string& kind, const List& list, const SayUnmodelled& say
 
 void find_unmodelled_cloth(const design::Garment& garment, const SayUnmodelled& say) {
   for (const design::Seam& seam : garment.seams) find_in_finish(seam, say);
-  say_all("tack", garment.tacks, say);
-  say_all("button", garment.buttons, say);
-  say_all("zip", garment.zips, say);
   say_all("pad", garment.pads, say);
   for (const design::Press& press : garment.presses)
     if (press.kind != design::Press::Kind::shrink && press.kind != design::Press::Kind::extend)

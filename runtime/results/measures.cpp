@@ -77,6 +77,14 @@ Measures measure(const Model& m, const State& state, const std::vector<body::Bod
       seam.draped_length += (state.position[s.particles[k]] - state.position[s.particles[k - 1]]).norm();
     out.seams.push_back(std::move(seam));
   }
+  for (const model::Closure& c : m.closures) {
+    out.all.mass += c.mass;
+    out.ties.push_back({c.name, 0});
+  }
+  for (std::size_t t = 0; t < m.tie.size(); ++t) {
+    double& gap = out.ties[static_cast<std::size_t>(m.tie_closure[t])].gap;
+    gap = std::max(gap, m.tie_span(t, state.position).norm() - m.tie_length[t]);
+  }
   return out;
 }
 

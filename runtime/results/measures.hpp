@@ -32,10 +32,18 @@ struct SeamMeasure {
   double gap = 0;  ///< m, largest distance between the sides; merged seams have none by construction
 };
 
+/// A button, hook, snap or tack.
+struct TieMeasure {
+  std::string closure;
+  double gap = 0;  ///< m, by which its longest tie is longer than it should be; 0 where it holds
+};
+inline constexpr double kOpenTie = 1e-3;  ///< m, gap from which a closure does not count as closed
+
 struct Measures {
   std::vector<PanelMeasure> panels;  ///< in the order of the model's panels
   PanelMeasure all;
   std::vector<SeamMeasure> seams;
+  std::vector<TieMeasure> ties;  ///< in the order of the model's closures
 };
 
 /// Everything above at the positions of `state`. Bodies must have their index built.

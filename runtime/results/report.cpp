@@ -60,6 +60,12 @@ Json seams(const std::vector<SeamMeasure>& all) {
   return out;
 }
 
+Json ties(const std::vector<TieMeasure>& all) {
+  Json out = Json::array();
+  for (const TieMeasure& t : all) out.push_back({{"name", t.closure}, {"gap", t.gap}});
+  return out;
+}
+
 Json findings(const Findings& all) {
   Json out = Json::array();
   for (const Finding& f : all) {
@@ -179,6 +185,7 @@ std::string report_json(const Report& r) {
                     {"garment", std::move(garment)},
                     {"panels", std::move(panels)},
                     {"seams", seams(r.measures.seams)},
+                    {"ties", ties(r.measures.ties)},
                     {"solves", solves(r.solves)},
                     {"measures", stated_measures(r.stated_measures)},
                     {"expects", expects(r.expects)},

@@ -27,6 +27,7 @@ class ChunkPass {
       energy += membrane(s_.membranes[k]);
     for (std::size_t k = chunk.bends.begin; k < chunk.bends.end; ++k) energy += bend(s_.bends[k]);
     for (std::size_t k = chunk.fits.begin; k < chunk.fits.end; ++k) energy += fit(s_.fits[k]);
+    for (std::size_t k = chunk.ties.begin; k < chunk.ties.end; ++k) energy += tie(s_.ties[k]);
     return energy;
   }
 
@@ -184,6 +185,33 @@ class ChunkPass {
       push(s_.fit_particle[s.begin], sum);
     }
     return 0.5 * curvature.cwiseProduct(moment).sum();
+  }
+
+  double tie(const TieStencil& s) const {
+    if (s.n == 0) return 0;
+    // Relative to the first particle, since the coefficients sum to zero.
+    Vector3d span = Vector3d::Zero();
+    for (int k = 1; k < s.n; ++k) span += s.coefficient[k] * (at(s.particle[k]) - at(s.particle[0]));
+    const double length = span.norm();
+    const TieTerm t(s_.tensile_scale * s.stiffness, length - s.length);
+    if constexpr (kForce) {
+      if (t.force == 0) return 0;
+      const Direction along(span);
+      Vector3d sum = Vector3d::Zero();
+      for (int k = 1; k < s.n; ++k) {
+        const Vector3d f = (-t.force * s.coefficient[k]) * along.unit;
+        push(s.particle[k], f);
+        sum += f;
+      }
+      push(s.particle[0], -sum);
+      if constexpr (kHessian) {
+        const Matrix3d h = length_curvature(along.unit, t.slope, t.force * along.inverse_length);
+        int place = 0;
+        for (int a = 0; a < s.n; ++a)
+          for (int b = a + 1; b < s.n; ++b) add(s.place[place++], (s.coefficient[a] * s.coefficient[b]) * h);
+      }
+    }
+    return t.energy;
   }
 
   const ElasticStencils& s_;

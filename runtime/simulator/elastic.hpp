@@ -32,7 +32,7 @@ class ElasticModel {
 
   std::size_t n_particles() const;
 
-  /// Factor on the tensile laws of springs and cut cells (> 0, 1 at first), for stiffness continuation.
+  /// Factor on the tensile laws of springs and cut cells and on ties (> 0, 1 at first), for stiffness continuation.
   /// Shear, bending and twist keep theirs. Not to be called while another function runs.
   void set_tensile_scale(double scale);
   double tensile_scale() const;
@@ -46,7 +46,7 @@ class ElasticModel {
   /// The same, and a positive semidefinite approximation of the energy's Hessian in N/m; overwrites the
   /// elastic part of `hessian` and clears what was added on its diagonal. `hessian` must come from
   /// make_matrix().
-  ///   springs, cut cells   N' n nT + max(N, 0) / l (I - n nT): exact in tension, no transversal part in
+  ///   springs, cut cells, ties   N' n nT + max(N, 0) / l (I - n nT): exact in tension, no transversal part in
   ///   compression shear                Gauss-Newton, G grad(phi) grad(phi)T bends Gauss-Newton on the
   ///   difference of the edge directions, isotropic twist, fits          exact (quadratic energies)
   double energy_force_hessian(const std::vector<Eigen::Vector3d>& x, std::vector<Eigen::Vector3d>& force,

@@ -19,6 +19,7 @@ void for_each_stencil(const model::Model& m, const Visit& visit) {
   for (std::size_t k = 0; k + 1 < m.fit_begin.size(); ++k)
     visit(
         std::span<const Index>(m.fit_particle).subspan(m.fit_begin[k], m.fit_begin[k + 1] - m.fit_begin[k]));
+  for (const auto& s : m.tie) visit(std::span<const Index>(s));
 }
 
 BlockPattern make_pattern(const model::Model& m) {
@@ -122,6 +123,7 @@ class Builder {
     add_membranes();
     add_bends();
     add_fits();
+    add_ties();
     for (auto& t : touched_) {
       std::sort(t.begin(), t.end());
       t.erase(std::unique(t.begin(), t.end()), t.end());
@@ -239,6 +241,29 @@ class Builder {
       out_.fit_weight.push_back(w[a]);
       for (std::size_t b = a + 1; b < p.size(); ++b) add_constant(p[a], p[b], w[a].dot(rigidity * w[b]));
     }
+  }
+
+  void add_ties() {
+    sort_kind(
+        m_.tie.size(), &Chunk::ties, [&](std::size_t k) { return std::span<const Index>(m_.tie[k]); },
+        [&](std::size_t k) { out_.ties.push_back(tie(k)); });
+  }
+
+  TieStencil tie(std::size_t k) const {
+    TieStencil s;
+    s.length = m_.tie_length[k];
+    s.stiffness = m_.tie_stiffness[k];
+    for (std::size_t j = 0; j < 6; ++j) {
+      const double c = j < 3 ? -m_.tie_weights[k][j] : m_.tie_weights[k][j];
+      const auto end = s.particle.begin() + s.n, same = std::find(s.particle.begin(), end, m_.tie[k][j]);
+      if (same == end) s.particle[s.n++] = m_.tie[k][j];
+      s.coefficient[same - s.particle.begin()] += c;
+    }
+    if (s.n == 1) s.n = 0;
+    int at = 0;
+    for (int a = 0; a < s.n; ++a)
+      for (int b = a + 1; b < s.n; ++b) s.place[at++] = place(s.particle[a], s.particle[b]);
+    return s;
   }
 
   const model::Model& m_;

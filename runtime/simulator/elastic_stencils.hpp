@@ -56,12 +56,21 @@ struct FitStencil {
   Eigen::Matrix3d rigidity;  ///< D times the area
 };
 
+/// A tie with equal particles taken together: span = sum coefficient[k] x[particle[k]], and the coefficients sum to zero.
+struct TieStencil {
+  int n = 0;  ///< particles that count; 0: both places are one
+  Indices<6> particle{};
+  std::array<double, 6> coefficient{};
+  std::array<BlockPlace, 15> place{};  ///< 01 02 .. 0n-1, 12 .. 1n-1, ..
+  double length = 0, stiffness = 0;
+};
+
 /// A range of every kind of stencil, all near one another.
 struct Chunk {
   struct Range {
     std::size_t begin = 0, end = 0;
   };
-  Range springs, cells, membranes, bends, fits;
+  Range springs, cells, membranes, bends, fits, ties;
 };
 
 struct ElasticStencils {
@@ -75,6 +84,7 @@ struct ElasticStencils {
   std::vector<MembraneStencil> membranes;
   std::vector<BendStencil> bends;
   std::vector<FitStencil> fits;
+  std::vector<TieStencil> ties;
   std::vector<Index> fit_particle;
   std::vector<Eigen::Vector3d> fit_weight;
 

@@ -87,6 +87,25 @@ inline void add_fits(model::Model& m) {
   }
 }
 
+/// Ties between places of a 4 x 4 sheet: particle to particle, within triangles, two places with a common particle, one that
+/// is slack, one longer than its reach.
+inline void add_ties(model::Model& m) {
+  auto tie = [&](const model::Indices<6>& particles, const std::array<double, 6>& weights, double length) {
+    m.tie.push_back(particles);
+    m.tie_weights.push_back(weights);
+    m.tie_length.push_back(length);
+    m.tie_stiffness.push_back(300 + 50 * static_cast<double>(m.tie.size()));
+    m.tie_closure.push_back(0);
+  };
+  const std::array<double, 6> ends{1, 0, 0, 1, 0, 0};
+  tie({1, 1, 1, 2, 2, 2}, ends, 0.007);
+  tie({0, 1, 5, 10, 11, 15}, {0.2, 0.3, 0.5, 0.1, 0.6, 0.3}, 0.019);
+  tie({4, 5, 9, 5, 9, 10}, {0.25, 0.25, 0.5, 0.3, 0.3, 0.4}, 0.001);
+  tie({8, 8, 8, 12, 12, 12}, ends, 0.2);
+  tie({3, 3, 3, 12, 12, 12}, ends, 0.004);
+  m.closures = {{"button", {}, 0}};
+}
+
 /// Every term alone, and all together at the end.
 inline std::vector<ElasticCase> elastic_cases() {
   SheetSpec spec;
@@ -107,14 +126,17 @@ inline std::vector<ElasticCase> elastic_cases() {
     if (!fits) m.fit_begin = {0};
     return m;
   };
-  std::vector<ElasticCase> cases(7);
+  std::vector<ElasticCase> cases(8);
   cases[0] = {"springs", without(true, false, false, false, false), {}, {}, false};
   cases[1] = {"trellis", without(false, true, false, false, false), {}, {}, false};
   cases[2] = {"twist", without(false, false, true, false, false), {}, {}, false};
   cases[3] = {"bends", without(false, false, false, true, false), {}, {}, true};
   cases[4] = {"fits", without(false, false, false, false, true), {}, {}, false};
   cases[5] = membrane_case();
-  cases[6] = {"all", all, {}, {}, true};
+  cases[6] = {"ties", without(false, false, false, false, false), {}, {}, false};
+  add_ties(cases[6].model);
+  cases[7] = {"all", all, {}, {}, true};
+  add_ties(cases[7].model);
   for (ElasticCase& c : cases) {
     auto compressed = crumpled(c.model, 0.0015, 3), folded = crumpled(c.model, 0.001, 4);
     for (auto& p : compressed) p = model::Vector3d(0.5 * p.x(), 0.4 * p.y(), p.z());

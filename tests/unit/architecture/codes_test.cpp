@@ -60,7 +60,7 @@ const std::map<std::string, std::string> kElsewhere = {
     {"G0450", "unit/modeller"}, {"G0453", "unit/modeller"}, {"G0454", "unit/modeller"}, {"G0550", "unit/modeller"},
     {"G0551", "unit/modeller"}, {"G0601", "unit/modeller"}, {"G0602", "unit/modeller"}, {"G0603", "unit/modeller"},
     {"G0604", "unit/modeller"}, {"G0605", "unit/modeller"}, {"G0606", "unit/modeller"}, {"G0650", "unit/modeller"},
-    {"G0651", "unit/modeller"},
+    {"G0651", "unit/modeller"}, {"G0652", "unit/modeller"},
     // A fault of the program; what only a drape finds.
     {"G0490", "unit/model"}, {"G0801", "physics"}, {"G0802", "physics"}, {"G0803", "physics"},
     // Patterns in JSON.

@@ -36,6 +36,12 @@ Model one_cell() {
   m.hold_kind = {model::HoldKind::plane};
   m.hold_point = {{0, 0, 0}};
   m.hold_normal = {{0, 1, 0}};
+  m.tie = {{0, 1, 2, 2, 3, 0}};
+  m.tie_weights = {{0.5, 0.25, 0.25, 1, 0, 0}};
+  m.tie_length = {0.001};
+  m.tie_stiffness = {1000};
+  m.tie_closure = {0};
+  m.closures = {{"top", {}, 0.001}};
   m.laws = {{{0, 0.1}, {0, 10}, {100, 100}}};
   m.panels = {{"square \"a\"", {}, 0, 4, 0, 2, 1e-4, 0.004, {0.5, 0.5, 0.5}}};
   m.seams = {{"s", {}, {0, 1}, 0.01}};
@@ -66,6 +72,10 @@ TEST_CASE("a sound model validates, and each kind of fault is found") {
   CHECK(fails([](Model& m) { m.laws[0].force[1] = 0; }));
   CHECK(fails([](Model& m) { m.seams[0].particles[0] = 9; }));
   CHECK(fails([](Model& m) { m.hold_normal.clear(); }));
+  CHECK(fails([](Model& m) { m.tie_weights[0][1] = 0.3; }));
+  CHECK(fails([](Model& m) { m.tie_weights.clear(); }));
+  CHECK(fails([](Model& m) { m.tie_closure[0] = 1; }));
+  CHECK(fails([](Model& m) { m.closures[0].mass = NAN; }));
 }
 
 TEST_CASE("findings about a broken model are few") {
@@ -106,10 +116,11 @@ TEST_CASE("the dump is JSON that holds every array to the bit") {
   CHECK(j["laws"][0]["force"][1] == 10);
 }
 
-TEST_CASE("the summary names panels and seams") {
+TEST_CASE("the summary names panels, seams and closures") {
   std::string text = model::summary_text(one_cell());
   CHECK(text.find("particles 4, vertices 4, triangles 2\n") != std::string::npos);
-  CHECK(text.find("mass 4 g, area 1 cm^2\n") != std::string::npos);
+  CHECK(text.find("mass 5 g, area 1 cm^2\n") != std::string::npos);  // with the button
   CHECK(text.find("seam s: 2 particles, 10 mm\n") != std::string::npos);
+  CHECK(text.find("closure top: 1 tie\n") != std::string::npos);
   CHECK(text.find("hash ") != std::string::npos);
 }

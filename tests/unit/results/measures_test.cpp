@@ -1,6 +1,7 @@
 #include "runtime/results/measures.hpp"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "tests/support/grid_model.hpp"
 
@@ -87,4 +88,24 @@ TEST_CASE("clearance is the distance to the nearest body, negative inside", "[me
   const auto inside = results::measure(m, s, {sphere(0.1, {0.05, -0.09, -0.05})}).all.clearance;
   CHECK(inside->least == Approx(-0.01).margin(0.001));
   CHECK_FALSE(results::measure(m, s, {sphere(0.1, {5, 0, 0})}).all.clearance.has_value());
+}
+
+TEST_CASE("the gap of a closure is that of its longest tie, and its mass is the garment's", "[measures]") {
+  test::SheetSpec spec;
+  spec.nx = spec.ny = 3;
+  model::Model m = test::make_sheet(spec);
+  const double cloth = m.panels[0].mass;
+  m.closures = {{"slack", {}, 0}, {"open", {}, 2e-3}};
+  m.tie = {{0, 0, 0, 1, 1, 1}, {0, 0, 0, 1, 1, 1}, {0, 2, 0, 8, 8, 8}};
+  m.tie_weights = {{1, 0, 0, 1, 0, 0}, {1, 0, 0, 1, 0, 0}, {0.25, 0.5, 0.25, 1, 0, 0}};
+  m.tie_length = {0.02, 0.007, 0.001};
+  m.tie_stiffness = {100, 100, 100};
+  m.tie_closure = {0, 1, 1};
+  const results::Measures r = results::measure(m, start(m), {});
+  REQUIRE(r.ties.size() == 2);
+  CHECK(r.ties[0].closure == "slack");
+  CHECK(r.ties[0].gap == 0);
+  CHECK(r.ties[1].gap == Approx(std::hypot(0.01, 0.02) - 0.001));  // from the middle of the lower side
+  CHECK(r.all.mass == Approx(cloth + 2e-3));
+  CHECK(r.panels[0].mass == Approx(cloth));
 }

@@ -146,6 +146,37 @@ TEST_CASE("a cut cell under uniform strain") {
   CHECK(ElasticModel(m).energy(x) == Approx(expected).epsilon(1e-10));
 }
 
+TEST_CASE("a tie pulls beyond its length only, and beyond its reach no harder") {
+  model::Model m;
+  m.mass = {1, 1, 1, 1};
+  m.fit_begin = {0};
+  // From particle 0 to the middle between 1 and 2.
+  m.tie = {{0, 0, 0, 1, 2, 1}};
+  m.tie_weights = {{0.2, 0.3, 0.5, 0.25, 0.5, 0.25}};
+  m.tie_length = {0.01};
+  m.tie_stiffness = {400};
+  m.tie_closure = {0};
+  const ElasticModel elastic(m);
+  auto at = [](double distance) { return Positions{{0, 0, 0}, {-1, distance, 0}, {1, distance, 0}, {5, 5, 5}}; };
+  Positions f;
+  auto hessian = elastic.make_matrix();
+  CHECK(elastic.energy_force_hessian(at(0.009), f, hessian) == 0);
+  CHECK(norm(f) == 0);
+  CHECK(hessian.to_dense().norm() == 0);
+  // Too long by 2 mm: 0.8 N and 0.8 mJ.
+  CHECK(elastic.energy_force_hessian(at(0.012), f, hessian) == Approx(8e-4).epsilon(1e-12));
+  CHECK((f[0] - Vector3d(0, 0.8, 0)).norm() < 1e-12);
+  CHECK((f[1] - Vector3d(0, -0.4, 0)).norm() < 1e-12);
+  CHECK((f[2] - f[1]).norm() < 1e-12);
+  CHECK(f[3] == Vector3d::Zero());
+  const Matrix3d whole = Vector3d(0.8 / 0.012, 400, 0.8 / 0.012).asDiagonal();
+  CHECK((hessian.diagonal(0) - whole).norm() < 1e-6 * whole.norm());
+  CHECK((hessian.diagonal(1) - whole / 4).norm() < 1e-6 * whole.norm());
+  // Too long by three times its reach of 5 mm: 2 N, and 2 N * (15 mm - 2.5 mm).
+  CHECK(elastic.energy_and_force(at(0.025), f) == Approx(0.025).epsilon(1e-12));
+  CHECK((f[0] - Vector3d(0, 2, 0)).norm() < 1e-12);
+}
+
 TEST_CASE("forces and torques of every term sum to zero") {
   for (const ElasticCase& c : test::elastic_cases())
     for (const Positions& x : c.states) {
@@ -383,14 +414,14 @@ TEST_CASE("models without particles, or with particles alone, have no energy") {
   CHECK(y[1] == Eigen::Vector3f(12, 15, 18));
 }
 
-TEST_CASE("the tensile scale acts on springs and cut cells only") {
+TEST_CASE("the tensile scale acts on springs, cut cells and ties only") {
   for (const ElasticCase& c : test::elastic_cases()) {
     INFO(c.name);
     ElasticModel elastic(c.model);
     const double before = elastic.energy(c.states[0]);
     elastic.set_tensile_scale(0.1);
     const double after = elastic.energy(c.states[0]);
-    if (c.name == "springs") CHECK(after == Approx(0.1 * before).epsilon(1e-12));
+    if (c.name == "springs" || c.name == "ties") CHECK(after == Approx(0.1 * before).epsilon(1e-12));
     if (c.name == "trellis" || c.name == "bends" || c.name == "twist" || c.name == "fits")
       CHECK(after == before);
   }
