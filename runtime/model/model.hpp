@@ -120,6 +120,12 @@ struct Model {
   std::vector<double> tie_length;                ///< L, m
   std::vector<double> tie_stiffness;             ///< k, N/m
   std::vector<Index> tie_closure;                ///< index into closures
+  // --- creases: bending stencils that are folded at rest, because the iron left them so. The direction from `before` to `at`
+  //     is turned by `crease_angle` about the direction from the first to the second particle of `crease_axis`, and only
+  //     then compared with the direction from `at` to `after`; axes are such that a positive angle folds to the back
+  std::vector<Index> crease_bend;                ///< index into bend, ascending
+  std::vector<double> crease_angle;              ///< rad
+  std::vector<Indices<2>> crease_axis;           ///< particle ids
   // --- tables
   std::vector<TensileLaw> laws;
   std::vector<PanelRange> panels;

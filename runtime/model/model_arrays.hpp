@@ -21,6 +21,7 @@ enum class Rows {
   fit_entry,
   hold,
   tie,
+  crease,
   panel,
   law,
   closure,
@@ -54,6 +55,8 @@ inline std::size_t row_count(const Model& m, Rows rows) {
       return m.hold_particle.size();
     case Rows::tie:
       return m.tie.size();
+    case Rows::crease:
+      return m.crease_bend.size();
     case Rows::panel:
       return m.panels.size();
     case Rows::law:
@@ -112,5 +115,8 @@ inline std::size_t row_count(const Model& m, Rows rows) {
   X(tie_weights,      tie,       none,      not_negative, "")      \
   X(tie_length,       tie,       none,      not_negative, "m")     \
   X(tie_stiffness,    tie,       none,      positive,     "N/m")   \
-  X(tie_closure,      tie,       closure,   any,          "")
+  X(tie_closure,      tie,       closure,   any,          "")      \
+  X(crease_bend,      crease,    bend,      any,          "")      \
+  X(crease_angle,     crease,    none,      any,          "rad")   \
+  X(crease_axis,      crease,    particle,  any,          "")
 // clang-format on

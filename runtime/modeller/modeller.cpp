@@ -13,6 +13,7 @@
 #include "runtime/modeller/cloth_fields.hpp"
 #include "runtime/modeller/holds.hpp"
 #include "runtime/modeller/placement.hpp"
+#include "runtime/modeller/pressing.hpp"
 #include "runtime/modeller/sewing.hpp"
 #include "runtime/modeller/twins.hpp"
 #include "runtime/modeller/unmodelled.hpp"
@@ -175,6 +176,9 @@ ModelResult build_model(const design::Garment& garment, const std::vector<body::
   if (!add_particles(garment, panels, areas, particle, fields, model, findings)) return result;
   add_elements(garment, panels, fields, model);
   add_bending(panels, fields, model);
+  Findings unreached;
+  add_creases(garment, panels, model, unreached);
+  if (options.coarsen <= 1) findings.insert(findings.end(), unreached.begin(), unreached.end());
   // What a tack goes to depends on where the panels lie: the model must not depend on whether they were dressed for it.
   const bool dress = options.dress || !garment.tacks.empty();
   if (!place_panels(garment, bodies, model, findings, dress)) return result;

@@ -26,9 +26,12 @@ void say_all(const std::string& kind, const List& list, const SayUnmodelled& say
 void find_unmodelled_cloth(const design::Garment& garment, const SayUnmodelled& say) {
   for (const design::Seam& seam : garment.seams) find_in_finish(seam, say);
   say_all("pad", garment.pads, say);
-  for (const design::Press& press : garment.presses)
-    if (press.kind != design::Press::Kind::shrink && press.kind != design::Press::Kind::extend)
-      say("iron `" + press.name + "`", press.origin);
+  for (const design::Press& press : garment.presses) {
+    bool along_border = false;
+    for (const design::EdgePart& part : press.line) along_border = along_border || part.on != design::EdgePart::On::line;
+    if (press.kind == design::Press::Kind::fold && along_border)
+      say("iron `" + press.name + "` along an edge", press.origin);
+  }
   for (const design::Stacking& s : garment.stackings)
     say("panel `" + garment.panels[s.panel].name + "` " + (s.over ? "over" : "under") + " `" +
             garment.panels[s.other].name + "`",

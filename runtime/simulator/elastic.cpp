@@ -150,11 +150,14 @@ class ChunkPass {
 
   double bend(const BendStencil& s) const {
     const Vector3d& middle = at(s.particle[1]);
-    const Direction in(middle - at(s.particle[0])), out(at(s.particle[2]) - middle);
+    Direction in(middle - at(s.particle[0]));
+    const Direction out(at(s.particle[2]) - middle);
+    if (s.crease >= 0) in.unit = s_.creases[s.crease].turn * in.unit;
     const BendTerm t(s.stiffness, in, out);
     if constexpr (kForce) {
-      push(s.particle[0], t.grad_in);
-      push(s.particle[1], t.grad_out - t.grad_in);
+      const Vector3d grad_in = s.crease >= 0 ? Vector3d(s_.creases[s.crease].turn.transpose() * t.grad_in) : t.grad_in;
+      push(s.particle[0], grad_in);
+      push(s.particle[1], t.grad_out - grad_in);
       push(s.particle[2], -t.grad_out);
       if constexpr (kHessian) {
         // Second difference of the unit directions: weights 1/l_in, -(1/l_in + 1/l_out), 1/l_out.
@@ -248,7 +251,9 @@ void fill_constant(const ElasticStencils& s, BlockMatrix& hessian) {
 
 }  // namespace
 
-ElasticModel::ElasticModel(const model::Model& model) : stencils_(std::make_unique<ElasticStencils>(model)) {}
+ElasticModel::ElasticModel(const model::Model& model) : stencils_(std::make_unique<ElasticStencils>(model)) {
+  follow(model.start);
+}
 ElasticModel::~ElasticModel() = default;
 ElasticModel::ElasticModel(ElasticModel&&) noexcept = default;
 ElasticModel& ElasticModel::operator=(ElasticModel&&) noexcept = default;
@@ -256,6 +261,16 @@ ElasticModel& ElasticModel::operator=(ElasticModel&&) noexcept = default;
 std::size_t ElasticModel::n_particles() const { return stencils_->n_particles; }
 void ElasticModel::set_tensile_scale(double scale) { stencils_->tensile_scale = scale; }
 double ElasticModel::tensile_scale() const { return stencils_->tensile_scale; }
+void ElasticModel::follow(const std::vector<Vector3d>& x) {
+  for (Crease& c : stencils_->creases) {
+    const Direction in(x[c.in[1]] - x[c.in[0]]);
+    const Vector3d along = x[c.axis[1]] - x[c.axis[0]];
+    const Direction axis(along - along.dot(in.unit) * in.unit);
+    Matrix3d across;  // axis.unit x
+    across << 0, -axis.unit.z(), axis.unit.y(), axis.unit.z(), 0, -axis.unit.x(), -axis.unit.y(), axis.unit.x(), 0;
+    c.turn = Matrix3d::Identity() + c.sine * across + (1 - c.cosine) * across * across;
+  }
+}
 BlockMatrix ElasticModel::make_matrix() const { return BlockMatrix(stencils_->pattern); }
 
 double ElasticModel::energy(const std::vector<Vector3d>& x) const {

@@ -4,6 +4,8 @@
 #include <numeric>
 #include <span>
 
+#include "runtime/base/portable_math.hpp"
+
 namespace garment::simulator {
 namespace {
 
@@ -207,12 +209,22 @@ class Builder {
   }
 
   void add_bends() {
+    std::vector<Index> crease(m_.bend.size(), -1);
+    for (std::size_t c = 0; c < m_.crease_bend.size(); ++c) {
+      const auto& p = m_.bend[m_.crease_bend[c]];
+      crease[m_.crease_bend[c]] = static_cast<Index>(c);
+      out_.creases.push_back({m_.crease_axis[c],
+                              {p[0], p[1]},
+                              portable::sin(m_.crease_angle[c]),
+                              portable::cos(m_.crease_angle[c]),
+                              Eigen::Matrix3d::Identity()});
+    }
     sort_kind(
         m_.bend.size(), &Chunk::bends, [&](std::size_t k) { return std::span<const Index>(m_.bend[k]); },
         [&](std::size_t k) {
           const double hbar = 0.5 * (m_.bend_lengths[k][0] + m_.bend_lengths[k][1]);
           out_.bends.push_back(
-              {m_.bend[k], places(m_.bend[k]), m_.bend_width[k] * m_.bend_rigidity[k] / hbar});
+              {m_.bend[k], places(m_.bend[k]), m_.bend_width[k] * m_.bend_rigidity[k] / hbar, crease[k]});
         });
   }
 

@@ -49,6 +49,15 @@ struct BendStencil {
   Indices<3> particle;
   std::array<BlockPlace, 3> place;  ///< 01 02 12
   double stiffness;                 ///< p B / hbar, N m: E = stiffness/2 psi^2
+  Index crease = -1;                ///< into creases; -1: flat at rest
+};
+
+/// The rest fold of a bending stencil. Its axis is that of the last ElasticModel::follow, so that the energy has a gradient
+/// of its own; near rest the axis no longer turns.
+struct Crease {
+  Indices<2> axis, in;              ///< particles: of the axis; of the edge that is turned
+  double sine = 0, cosine = 1;
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
 };
 
 struct FitStencil {
@@ -83,6 +92,7 @@ struct ElasticStencils {
   std::vector<CellStencil> cells;
   std::vector<MembraneStencil> membranes;
   std::vector<BendStencil> bends;
+  std::vector<Crease> creases;
   std::vector<FitStencil> fits;
   std::vector<TieStencil> ties;
   std::vector<Index> fit_particle;

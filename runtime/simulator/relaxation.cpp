@@ -167,6 +167,7 @@ double Relaxation::residual(const Vectors& x, Vectors& force) {
   refresh_candidates(x);
   bodies_.find(x);
   find_contacts(x, contacts_);
+  elastic_.follow(x);
   elastic_.energy_and_force(x, force);
   add_external_forces(x, force);
   collect_normal_forces(x);
@@ -202,6 +203,7 @@ double Relaxation::assemble(const Vectors& x, StepReport& report) {
   find_contacts(x, contacts_);
   keep_shares();
   report.contacts = contacts_.size();
+  elastic_.follow(x);
   double elastic = elastic_.energy_force_hessian(x, force_, matrix_);
   add_external_forces(x, force_);
   collect_normal_forces(x);

@@ -108,6 +108,70 @@ TEST_CASE("a bent line") {
   }
 }
 
+namespace {
+
+/// A cross of a warp and a weft line, both bending; the weft is ironed to the back by 0.8 rad, the warp to the face by 0.5.
+model::Model creased_cross() {
+  model::Model m;
+  const double h = 0.01;
+  m.mass.assign(5, 1);
+  m.start = {{-h, 0, 0}, {0, 0, 0}, {h, 0, 0}, {0, -h, 0}, {0, h, 0}};
+  m.bend = {{3, 1, 4}, {0, 1, 2}};
+  m.bend_lengths = {{h, h}, {h, h}};
+  m.bend_width = {h, h};
+  m.bend_rigidity = {1e-5, 2e-5};
+  m.crease_bend = {0, 1};
+  m.crease_angle = {-0.5, 0.8};
+  m.crease_axis = {{2, 0}, {3, 4}};
+  m.fit_begin = {0};
+  return m;
+}
+
+}  // namespace
+
+TEST_CASE("a crease costs nothing where it is folded as ironed, and turns with the cloth") {
+  const model::Model m = creased_cross();
+  ElasticModel elastic(m);
+  auto folded = [](double warp, double weft) {  // weft to the back of the face +z, warp to the face
+    const double h = 0.01;
+    return Positions{{-h, 0, 0}, {0, 0, 0}, {h * std::cos(weft), 0, -h * std::sin(weft)},
+                     {0, -h, 0}, {0, h * std::cos(warp), h * std::sin(warp)}};
+  };
+  CHECK(elastic.energy(m.start) == Approx(0.5 * (1e-5 * 4 * std::pow(std::tan(0.25), 2) + 2e-5 * 4 * std::pow(std::tan(0.4), 2))));
+  const double of_weft = 0.5 * 2e-5 * 4 * std::pow(std::tan(0.4), 2), flat = elastic.energy(m.start);
+  Positions x = folded(0.5, 0);
+  for (Vector3d& p : x) p = some_rotation() * p;
+  elastic.follow(x);
+  CHECK(elastic.energy(x) == Approx(of_weft).epsilon(1e-9));
+  x = folded(0, 0.8);
+  elastic.follow(x);
+  CHECK(elastic.energy(x) == Approx(0.5 * 1e-5 * 4 * std::pow(std::tan(0.25), 2)).epsilon(1e-9));
+  x = folded(0, -0.8);
+  elastic.follow(x);
+  CHECK(elastic.energy(x) > 3 * flat);
+}
+
+TEST_CASE("the force of a crease is minus the gradient of the energy as long as its axis stands") {
+  ElasticModel elastic(creased_cross());
+  Positions x{{-0.011, 0.001, 0.002}, {0, 0, 0}, {0.008, -0.001, -0.004}, {0.001, -0.009, 0.001}, {0, 0.01, 0.003}}, f;
+  elastic.follow(x);
+  elastic.energy_and_force(x, f);
+  Vector3d sum = Vector3d::Zero();
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    sum += f[i];
+    for (int axis = 0; axis < 3; ++axis) {
+      const double at = x[i][axis], d = 1e-6;
+      x[i][axis] = at + d;
+      const double up = elastic.energy(x);
+      x[i][axis] = at - d;
+      const double down = elastic.energy(x);
+      x[i][axis] = at;
+      CHECK(f[i][axis] == Approx(-(up - down) / (2 * d)).epsilon(1e-5).margin(1e-9));
+    }
+  }
+  CHECK(sum.norm() < 1e-12);
+}
+
 TEST_CASE("a twisted cell") {
   test::SheetSpec spec;
   spec.stretch = 1e-12;
