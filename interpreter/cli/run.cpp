@@ -176,6 +176,9 @@ void summarise(const results::Report& report, const OutputFolder& out, bool drap
                                   : fmt::format("{} intersections", report.drape.self_intersections +
                                                                         report.drape.body_intersections +
                                                                         report.drape.inside_body)));
+  for (const results::TieMeasure& t : report.measures.ties)
+    if (draped && t.gap > results::kOpenTie)
+      terminal.note(fmt::format("`{}` does not close: {} mm are missing", t.closure, format_number(1000 * t.gap, 2)));
   for (const results::MeasureOutcome& m : report.stated_measures) terminal.note(fmt::format("       {} = {}", m.name, m.shown));
   for (const results::ExpectOutcome& e : report.expects)
     terminal.note(fmt::format("{} {}: found {}", e.passed ? "ok    " : "FAILED", e.text, e.shown));

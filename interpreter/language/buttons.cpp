@@ -55,6 +55,7 @@ class ButtonReader {
                          .help("say where its hole is: `button top on left at (2 cm, 40 cm) through right at "
                                "(-2 cm, 40 cm)`"));
     for (Override& change : declaration_.overrides) assign(change);
+    if (!shank_stated_ && button_.kind != design::Button::Kind::sew_through) button_.shank = 0;
     for (const auto& [hole, span] : spans_)
       check_room(hole.panel, hole.point, span, &hole != &spans_.front().first);
     return button_;
@@ -127,7 +128,7 @@ class ButtonReader {
     const double x = checked_quantity(program_, record, q, expr.span);
     if (word == "mass") button_.mass = x;
     if (word == "diameter") button_.diameter = x;
-    if (word == "shank") button_.shank = x;
+    if (word == "shank") button_.shank = x, shank_stated_ = true;
   }
 
   void set_kind(const Expr& expr) {
@@ -165,7 +166,7 @@ class ButtonReader {
   design::Button button_;
   std::vector<std::pair<design::ButtonHole, Span>> spans_;
   int panel_ = -1;
-  bool on_ = true, awaiting_ = false;
+  bool on_ = true, awaiting_ = false, shank_stated_ = false;
   Span last_panel_;
 };
 

@@ -78,7 +78,7 @@ std::vector<ConstructRecord> assembly_constructs() {
                    {"through", "PANEL", "the panel with its hole; several from the button downwards"},
                    {"mass", "MASS", "of one button", kMass, 1e-5, 0.1, "1 g"},
                    {"diameter", "LENGTH", "of the button", kLength, 2e-3, 0.1, "15 mm"},
-                   {"shank", "LENGTH", "thread between cloth and button", kLength, 0, 0.02, "3 mm"},
+                   {"shank", "LENGTH", "thread between cloth and button; none for a hook or snap", kLength, 0, 0.02, "3 mm"},
                    {"kind", "sew_through | hook | snap", "what it is", {}, 1, 0, "sew_through"}},
        .evaluate = evaluate_button,
        .reserve = reserve_button},

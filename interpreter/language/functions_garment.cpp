@@ -167,7 +167,7 @@ std::vector<FunctionRecord> drape_functions() {
        run_clearance,
        true,
        true},
-      {"mass", "mass(PANEL | all)", "mass of the cloth", "mass(all)", {"panel"}, 0, run_mass, true, true},
+      {"mass", "mass(PANEL | all)", "mass of the cloth; of all with its buttons", "mass(all)", {"panel"}, 0, run_mass, true, true},
       {"energy",
        "energy",
        "elastic energy and that of weight",

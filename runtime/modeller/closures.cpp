@@ -95,7 +95,7 @@ class Ties {
                                      model_.panels[tack.panel[1]].name, format_number(100 * farthest, 3),
                                      model_.panels[tack.panel[0]].name),
                          {{tack.origin, ""}},
-                         "a tack holds what lies within 10 cm of it: place the two panels on each other, or tack along another line"});
+                         "a tack holds what lies within 10 cm: place the two panels on each other, or tack along another line"});
   }
 
   /// Where a point of the pattern lies on the cloth; nothing where there is no such panel.
