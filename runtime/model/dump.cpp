@@ -76,9 +76,9 @@ std::uint64_t state_hash(const State& state) {
 
 std::uint64_t model_hash(const Model& model) {
   Fnv hash;
-  // Ties count where there are any: a garment without closures is the model it was before the Model knew of them.
+  // Ties and creases count where there are any: a garment without them is the model it was before the Model knew of them.
 #define HASH_ARRAY(name, rows, refers_to, sign, unit) \
-  if (Rows::rows != Rows::tie || !model.name.empty()) hash.add(model.name);
+  if ((Rows::rows != Rows::tie && Rows::rows != Rows::crease) || !model.name.empty()) hash.add(model.name);
   GARMENT_MODEL_ARRAYS(HASH_ARRAY)
 #undef HASH_ARRAY
   for (const TensileLaw& law : model.laws) {

@@ -13,6 +13,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Vectors = std::vector<Vector3d>;
 
+constexpr double kStandardGravity = 9.80665; // m/s^2
 constexpr double kLargestTimeStep = 2.0;   // s
 constexpr double kSmallestTimeStep = 1e-4; // s
 constexpr double kLinearTolerance = 0.03;
@@ -66,8 +67,10 @@ Relaxation::Relaxation(const model::Model& model, const std::vector<body::Body>&
   damping_.assign(model.n_particles(), 0);
   last_motion_.assign(model.n_particles(), Vector3d::Zero());
   recent_motion_ = spacing_ / 2;
+  // Without weight rest is measured by the weight that the cloth would have.
+  const double gravity = model.gravity.norm() > 0 ? model.gravity.squaredNorm() : kStandardGravity * kStandardGravity;
   double sum = 0;
-  for (double m : model.mass) sum += m * m * model.gravity.squaredNorm();
+  for (double m : model.mass) sum += m * m * gravity;
   rms_weight_ = std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, model.n_particles())));
 }
 

@@ -9,6 +9,7 @@
 
 using namespace garment;
 using design::Press;
+using test::Point2;
 
 namespace {
 
@@ -52,7 +53,7 @@ TEST_CASE("every thread that crosses a fold turns by it once") {
     g.presses[0].set = 0.8;
     const model::Model m = build(g);
     const auto rows = by_line(m, false);
-    CHECK(rows.size() == 27);  // of 29 inside; the stencils beside the border are fitted
+    CHECK(rows.size() == 29);  // all inside: the border runs along the grid
     for (const auto& [height, angle] : rows) CHECK(angle == Approx(1.2));
     CHECK(by_line(m, true).empty());
     if (radius == 0) CHECK(m.crease_bend.size() == rows.size());
