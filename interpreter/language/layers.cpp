@@ -132,6 +132,16 @@ void check_stackings(Program& program) {
   }
 }
 
+/// A region of its own, which no statement names, for a layer on one half of a panel.
+int add_half_region(Program& program, const design::Layer& layer, const PanelPart& part) {
+  design::Region region;
+  region.name = layer.name;
+  region.origin = layer.origin;
+  region.parts = {{part.panel, half_shape(program, part)}};
+  program.garment.regions.push_back(std::move(region));
+  return static_cast<int>(program.garment.regions.size()) - 1;
+}
+
 }  // namespace
 
 int reserve_layer(Program& program, const Declaration& declaration) {
@@ -152,10 +162,13 @@ Value evaluate_layer(Program& program, Declaration& declaration) {
   if (fabric == nullptr)
     fail(program, Message("G0306", kind_of(cloth) + " where `of` takes a fabric", of.clause->values[0].span));
   const BoundClause& on = clauses.need("on");
-  layer.panel = eval_panel_part(program, clauses.value(on), *on.scope, "`on`").panel;
+  const PanelPart part = eval_panel_part(program, clauses.value(on), *on.scope, "`on`");
+  layer.panel = part.panel;
   layer.grain_angle = panel_at(program, layer.panel).grain_angle;
   if (const BoundClause* in = clauses.find("in"))
     layer.region = eval_region_on(program, clauses.value(*in), *in->scope, layer.panel, "`in`");
+  else if (!part.half.empty())
+    layer.region = add_half_region(program, layer, part);
   const bool fused = clauses.flag("fused"), basted = clauses.flag("basted");
   if (fused == basted)
     fail(program, Message(fused ? "G0415" : "G0312",

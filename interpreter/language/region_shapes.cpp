@@ -399,22 +399,22 @@ class ShapeReader {
   Scope scope_;
 };
 
-/// The half of an opened panel: everything on its side of the fold.
-RegionShape half_plane(const PanelInfo& info, const std::string& half) {
-  RegionShape shape = leaf(Kind::beyond);
+}  // namespace
+
+RegionShape half_shape(const Program& program, const PanelPart& on) {
+  if (on.half.empty()) return RegionShape{};
+  const PanelInfo& info = program.panels[static_cast<std::size_t>(on.panel)];
+  RegionShape shape = leaf(Kind::beyond);  // everything on its side of the fold
   shape.size = info.panel.fold_x.value_or(0);
-  shape.sign = (half == "left") != info.on_back ? 1 : -1;
+  shape.sign = (on.half == "left") != info.on_back ? 1 : -1;
   return shape;
 }
-
-}  // namespace
 
 RegionShape read_region_shape(Program& program, const Statement& statement, Scope& scope, const PanelPart& on,
                               const std::vector<PanelPart>& others) {
   RegionShape shape = ShapeReader(program, statement, scope, on, others).read();
   if (on.half.empty()) return shape;
-  return joined(Kind::all_of, half_plane(program.panels[static_cast<std::size_t>(on.panel)], on.half),
-                std::move(shape));
+  return joined(Kind::all_of, half_shape(program, on), std::move(shape));
 }
 
 }  // namespace garment::interpreter

@@ -35,6 +35,9 @@ PanelPart eval_panel_part(Program& program, const Expr& expr, Scope& scope, cons
 design::RegionShape read_region_shape(Program& program, const Statement& statement, Scope& scope,
                                       const PanelPart& on, const std::vector<PanelPart>& others);
 
+/// The half of a panel on the fold that is meant, all of it where none is.
+design::RegionShape half_shape(const Program& program, const PanelPart& on);
+
 /// True where the panel has cloth in the shape.
 bool covers_cloth(const design::Panel& panel, const design::RegionShape& shape);
 

@@ -86,6 +86,7 @@ Matrix3d plate_at(const std::vector<MeshedPanel>& panels, const ClothFields& fie
 struct Stiffened {
   Index before = -1, after = -1;
   double more = 0;
+  double factor = 1;
 };
 
 /// A fitted stencil with the plate matrix of each panel that meets at its particle.
@@ -133,10 +134,11 @@ std::vector<Stiffened> stiffened_seams(const design::Garment& garment, const mod
       if (!side.parts.empty()) width += sewn_allowance(garment, seam, side.parts[0]);
     for (const model::SeamChain& chain : model.seams) {
       if (chain.name != seam.name) continue;
-      for (std::size_t k = 0; k < chain.particles.size(); ++k)
-        at[chain.particles[k]] = {chain.particles[k > 0 ? k - 1 : k],
-                                  chain.particles[std::min(k + 1, chain.particles.size() - 1)],
-                                  (seam.finish.stiffness - 1) * width};
+      const std::vector<Index>& p = chain.particles;
+      const bool ring = p.size() > 3 && p.front() == p.back();
+      for (std::size_t k = 0; k + (ring ? 1 : 0) < p.size(); ++k)
+        at[p[k]] = {k > 0 ? p[k - 1] : ring ? p[p.size() - 2] : p[k], p[std::min(k + 1, p.size() - 1)],
+                    (seam.finish.stiffness - 1) * width, seam.finish.stiffness};
     }
   }
   return at;
@@ -159,7 +161,9 @@ void stiffen(const Stiffened& seam, const Vector2d& along, double area, Matrix3d
   const Eigen::Vector3d bent(t.x() * t.x(), t.y() * t.y(), t.x() * t.y());  // curvature 1 along the seam
   const double rigidity = bent.dot(plate * bent), length = along.norm() / 2;
   const Eigen::Vector3d row = seen_along(t).row(0);
-  plate += seam.more * length / area * rigidity * row * row.transpose();
+  // A softer seam leaves its share, or the plate would push the cloth out of shape.
+  const double more = seam.factor < 1 ? std::max(seam.more * length / area, seam.factor - 1) : seam.more * length / area;
+  plate += more * rigidity * row * row.transpose();
 }
 
 std::vector<Fit> make_fits(const Sheet& sheet, const std::vector<MeshedPanel>& panels,

@@ -37,6 +37,33 @@ bool changes_length(const design::Press& press) {
   return press.kind == design::Press::Kind::shrink || press.kind == design::Press::Kind::extend;
 }
 
+/// Parts of one panel together: strips beside parts that meet would lie twice at the joint.
+std::vector<std::vector<design::EdgePart>> by_panel(const std::vector<design::EdgePart>& parts) {
+  std::vector<std::vector<design::EdgePart>> sorted;
+  for (const design::EdgePart& part : parts) {
+    auto known = std::find_if(sorted.begin(), sorted.end(), [&](const auto& some) { return some[0].panel == part.panel; });
+    if (known != sorted.end())
+      known->push_back(part);
+    else
+      sorted.push_back({part});
+  }
+  return sorted;
+}
+
+/// The panel within its outer border.
+design::RegionShape outline_of(const design::Panel& panel) {
+  constexpr double kChordError = 1e-4;  // m
+  design::RegionShape shape;
+  shape.kind = design::RegionShape::Kind::polygon;
+  for (const design::Edge& edge : panel.edges) {
+    const std::vector<Point2> points = edge.curve.polyline(kChordError);
+    if (!points.empty()) shape.points.insert(shape.points.end(), points.begin(), points.end() - 1);
+  }
+  return shape;
+}
+
+constexpr double kLeastRest = 0.25;  // length at rest over length as cut
+
 }  // namespace
 
 double sewn_allowance(const design::Garment& garment, const design::Seam& seam, const design::EdgePart& part) {
@@ -63,8 +90,10 @@ ClothFields::ClothFields(const design::Garment& garment)
     add(garment.layers[k].region, garment.layers[k].panel, patch);
   }
   for (const design::Hem& hem : garment.hems)
-    for (const design::EdgePart& part : hem.parts) add_along({part}, hem.turn, garment.panels[part.panel].fabric, hem.to);
+    for (const std::vector<design::EdgePart>& parts : by_panel(hem.parts))
+      add_along(parts, hem.turn, garment.panels[parts[0].panel].fabric, hem.to);
   for (const design::Seam& seam : garment.seams) add_allowances(seam);
+  for (const design::Panel& panel : garment.panels) outlines_.emplace_back(panel, outline_of(panel));
 }
 
 /// What `patch` says holds in the region, on all its panels or on one; without a region on the whole panel.
@@ -109,12 +138,12 @@ void ClothFields::add_allowances(const design::Seam& seam) {
   if (seam.finish.ironed == Ironed::no) return;
   for (std::size_t on = 0; on < seam.sides.size(); ++on) {
     if (seam.finish.ironed == Ironed::toward && static_cast<int>(on) != seam.finish.ironed_toward) continue;
-    for (const design::EdgePart& part : seam.sides[on].parts)
+    for (const std::vector<design::EdgePart>& parts : by_panel(seam.sides[on].parts))
       for (std::size_t from = 0; from < seam.sides.size(); ++from) {
         if (seam.sides[from].parts.empty() || (seam.finish.ironed == Ironed::open && from != on)) continue;
         // Of several pieces on a side the first says what cloth it is.
-        const design::EdgePart& own = from == on ? part : seam.sides[from].parts[0];
-        add_along({part}, sewn_allowance(garment_, seam, own), garment_.panels[own.panel].fabric, design::Facing::back);
+        const design::EdgePart& own = from == on ? parts[0] : seam.sides[from].parts[0];
+        add_along(parts, sewn_allowance(garment_, seam, own), garment_.panels[own.panel].fabric, design::Facing::back);
       }
   }
 }
@@ -128,6 +157,8 @@ Patch ClothFields::at(std::size_t panel, const Point2& p) const {
     sum.rest_weft *= entry.patch.rest_weft;
     sum.layers.insert(sum.layers.end(), entry.patch.layers.begin(), entry.patch.layers.end());
   }
+  sum.rest_warp = std::max(kLeastRest, sum.rest_warp);
+  sum.rest_weft = std::max(kLeastRest, sum.rest_weft);
   return sum;
 }
 
@@ -138,17 +169,21 @@ std::vector<Patch> ClothFields::around(std::size_t panel, const Point2& p, doubl
     border = border || !at(panel, p + width / 2 * corner).alike(middle);
   if (!border) return {middle};
   std::vector<Patch> patches;
+  int counted = 0;
   for (int i = 0; i < kSamples; ++i)
     for (int j = 0; j < kSamples; ++j) {
       const Point2 off((i + 0.5) / kSamples - 0.5, (j + 0.5) / kSamples - 0.5);
+      if (!outlines_[panel].contains(p + width * off)) continue;
       Patch here = at(panel, p + width * off);
-      here.share = 1.0 / (kSamples * kSamples);
+      ++counted;
       auto known = std::find_if(patches.begin(), patches.end(), [&](const Patch& other) { return other.alike(here); });
       if (known != patches.end())
-        known->share += here.share;
+        known->share += 1;
       else
         patches.push_back(std::move(here));
     }
+  if (counted == 0) return {middle};
+  for (Patch& patch : patches) patch.share /= counted;
   return patches;
 }
 

@@ -56,6 +56,7 @@ class ClothFields {
   const design::Garment& garment_;
   std::vector<design::Layer> layers_;
   std::vector<std::vector<Entry>> panels_;
+  std::vector<design::RegionTest> outlines_;  // of the panels, without their holes
   std::vector<double> slope_;
 };
 

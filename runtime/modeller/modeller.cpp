@@ -56,6 +56,15 @@ bool check_inputs(const design::Garment& garment, const ModelOptions& options, F
       refuse(f.origin, fmt::format("fabric `{}` has a property that is negative, zero or not finite", f.name),
              "mass, EM, LT and Fm are positive; G, B, T and friction are not negative");
   }
+  for (const design::Press& press : garment.presses) {
+    constexpr double kMost = 0.5;  // of the length
+    const bool lengths = press.kind == design::Press::Kind::shrink || press.kind == design::Press::Kind::extend;
+    const double most = press.factor * std::max(press.warp, press.weft);
+    if (lengths && !(most <= kMost))
+      refuse(press.origin,
+             fmt::format("iron `{}` changes lengths by {} %", press.name, format_number(100 * most, 3)),
+             "at most half of the length, the factor counted");
+  }
   return findings.size() == before;
 }
 

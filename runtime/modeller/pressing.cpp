@@ -33,23 +33,32 @@ struct Thread {
 class Pressed {
  public:
   Pressed(const design::Garment& garment, const Press& press) : press_(press) {
-    for (const design::EdgePart& part : press.line) {
-      const design::Panel& panel = garment.panels[part.panel];
-      lines_.push_back({part.panel, design::edge_of(panel, part).curve.polyline(kChordError)});
-    }
+    for (const design::EdgePart& part : press.line)
+      lines_.push_back({part.panel, points_of(design::edge_of(garment.panels[part.panel], part).curve, part)});
     if (press.region < 0) return;
     for (const design::RegionPart& part : garment.regions[press.region].parts)
       regions_.emplace_back(part.panel, design::RegionTest(garment.panels[part.panel], part.shape));
   }
 
-  /// Changes the thread's rest fold; true where it has anything to say.
+  /// Changes the thread's rest fold; true where it did.
   bool apply(const Thread& thread, double& angle) const {
     const double before = angle;
     if (press_.kind == Press::Kind::fold) angle += folded(thread);
     if (press_.kind == Press::Kind::curl && holds(thread)) angle += curled(thread);
-    const bool flat = press_.kind == Press::Kind::flat && holds(thread);
-    if (flat) angle *= 1 - std::min(1.0, press_.factor);
-    return flat || angle != before;
+    if (press_.kind == Press::Kind::flat && holds(thread)) angle *= 1 - std::min(1.0, press_.factor);
+    return angle != before;
+  }
+
+  /// The panels on which it should have done something, each once.
+  std::vector<int> panels() const {
+    std::vector<int> all;
+    if (press_.kind == Press::Kind::fold)
+      for (const Line& line : lines_) all.push_back(line.panel);
+    else
+      for (const auto& region : regions_) all.push_back(region.first);
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    return all;
   }
 
  private:
@@ -57,6 +66,18 @@ class Pressed {
     int panel;
     std::vector<Point2> points;
   };
+
+  /// The part of the curve as a polyline.
+  static std::vector<Point2> points_of(const geometry::Curve& curve, const design::EdgePart& part) {
+    const double from = std::min(part.from, part.to), to = std::max(part.from, part.to);
+    std::vector<double> at;
+    const std::vector<Point2> whole = curve.polyline(kChordError, &at);
+    std::vector<Point2> points{curve.point_at(from)};
+    for (std::size_t k = 0; k < whole.size(); ++k)
+      if (at[k] > from && at[k] < to) points.push_back(whole[k]);
+    points.push_back(curve.point_at(to));
+    return points;
+  }
 
   double side() const { return press_.to == design::Facing::back ? 1 : -1; }
 
@@ -129,6 +150,17 @@ std::vector<Thread> threads_of(const model::Model& model) {
   return threads;
 }
 
+Finding unreached(const Press& press, const MeshedPanel& panel) {
+  std::string help = "give the panel a finer resolution, or iron farther from its border";
+  if (press.kind == Press::Kind::flat) help = "press flat after the folds that are to go; without a fold the cloth is flat";
+  if (press.kind == Press::Kind::curl) help = "the line that the cloth is curled about lies on the same panel";
+  return {"G1150",
+          Severity::warning,
+          fmt::format("iron `{}` changes no thread of panel `{}`", press.name, panel.panel->name),
+          {{press.origin, ""}},
+          help};
+}
+
 }  // namespace
 
 void add_creases(const design::Garment& garment, const std::vector<MeshedPanel>& panels, model::Model& model,
@@ -143,14 +175,11 @@ void add_creases(const design::Garment& garment, const std::vector<MeshedPanel>&
   for (const Press& press : garment.presses) {
     if (!bends(press)) continue;
     const Pressed pressed(garment, press);
-    bool reached = false;
-    for (std::size_t k = 0; k < threads.size(); ++k) reached = pressed.apply(threads[k], angle[k]) || reached;
-    if (!reached)
-      findings.push_back({"G1150",
-                          Severity::warning,
-                          fmt::format("iron `{}` is finer than the grid: no thread inside the panel crosses it", press.name),
-                          {{press.origin, ""}},
-                          "give the panel a finer resolution, or iron farther from its border"});
+    std::vector<char> reached(panels.size(), 0);
+    for (std::size_t k = 0; k < threads.size(); ++k)
+      if (pressed.apply(threads[k], angle[k])) reached[threads[k].panel] = 1;
+    for (int panel : pressed.panels())
+      if (!reached[panel]) findings.push_back(unreached(press, panels[panel]));
   }
   for (std::size_t k = 0; k < angle.size(); ++k) {
     if (angle[k] == 0) continue;

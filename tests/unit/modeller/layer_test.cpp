@@ -1,4 +1,5 @@
 // Layers and pressed regions in the particle model: the equivalent material, against formulas and other routes.
+#include <Eigen/Dense>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -7,19 +8,14 @@
 #include "runtime/modeller/layered_cloth.hpp"
 #include "runtime/modeller/modeller.hpp"
 #include "runtime/modeller/tensile_law.hpp"
+#include "tests/unit/modeller/built.hpp"
 #include "tests/unit/modeller/garments.hpp"
 
 using namespace garment;
+using test::build;
 using design::RegionShape;
 
 namespace {
-
-model::Model build(const design::Garment& g) {
-  modeller::ModelResult result = modeller::build_model(g, {});
-  for (const Finding& f : result.findings) UNSCOPED_INFO(f.code << " " << f.message);
-  REQUIRE(result.model);
-  return *result.model;
-}
 
 double sum(const std::vector<double>& values) {
   double total = 0;
@@ -180,6 +176,25 @@ TEST_CASE("a region that is shrunk or drawn out has shorter or longer threads at
   CHECK(longer.spring_rest[0] > plain.spring_rest[0]);
 }
 
+TEST_CASE("a region as large as its panel is all of it, and hems in parts lie once") {
+  design::Garment g = sheet({layer(1, false)});
+  design::Region all = above(0);
+  all.parts[0].shape.kind = RegionShape::Kind::polygon;
+  all.parts[0].shape.points = {{0, 0}, {0.3, 0}, {0.3, 0.4}, {0, 0.4}};
+  g.regions = {all};
+  g.layers[0].region = 0;
+  CHECK(sum(build(g).mass) == Approx(sum(build(sheet({layer(1, false)})).mass)).epsilon(1e-9));
+  design::Garment one = sheet({}), two = one;
+  design::Hem hem;
+  hem.name = "hem";
+  hem.parts = {{0, 0, 0, 0.3}};
+  hem.turn = 0.04;
+  one.hems = {hem};
+  hem.parts = {{0, 0, 0, 0.12}, {0, 0, 0.12, 0.3}};
+  two.hems = {hem};
+  CHECK(sum(build(two).mass) == Approx(sum(build(one).mass)).epsilon(1e-9));
+}
+
 TEST_CASE("a hem is its own cloth twice, as wide as it is turned") {
   design::Garment g = sheet({});
   design::Hem hem;
@@ -230,6 +245,19 @@ TEST_CASE("allowances lie where the iron put them") {
   for (int panel : {0, 1}) CHECK(mass_of(build(sewn(open)), panel) == Approx(piece + strip));
   CHECK(mass_of(build(sewn(toward)), 0) == Approx(piece));
   CHECK(mass_of(build(sewn(toward)), 1) == Approx(piece + 2 * strip));
+}
+
+TEST_CASE("a softened seam keeps its share of the plate") {
+  design::SeamFinish finish;
+  finish.stiffness = 0.1;
+  finish.allowance = 0.03;
+  const model::Model m = build(sewn(finish));
+  for (const auto& d : m.fit_rigidity) {
+    Eigen::Matrix3d plate;
+    plate << d[0], d[3], d[4], d[3], d[1], d[5], d[4], d[5], d[2];
+    CHECK(plate.diagonal().minCoeff() > 0);
+    CHECK(plate.determinant() >= 0);
+  }
 }
 
 TEST_CASE("a stiffened seam resists bending along itself, by its allowances' width on any grid") {

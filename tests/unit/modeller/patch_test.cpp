@@ -5,19 +5,14 @@
 
 #include "runtime/modeller/modeller.hpp"
 #include "runtime/modeller/tensile_law.hpp"
+#include "tests/unit/modeller/built.hpp"
 #include "tests/unit/modeller/garments.hpp"
 
 using namespace garment;
+using test::build;
 using Eigen::Vector3d;
 
 namespace {
-
-model::Model build(const design::Garment& g) {
-  modeller::ModelResult result = modeller::build_model(g, {});
-  for (const Finding& f : result.findings) UNSCOPED_INFO(f.code << " " << f.message);
-  REQUIRE(result.model);
-  return *result.model;
-}
 
 design::Fabric linear_cloth() {
   design::Fabric f = test::cloth();

@@ -4,20 +4,15 @@
 
 #include "runtime/model/dump.hpp"
 #include "runtime/modeller/modeller.hpp"
+#include "tests/unit/modeller/built.hpp"
 #include "tests/unit/modeller/garments.hpp"
 
 using namespace garment;
+using test::build;
 using design::RegionFactors;
 using design::RegionShape;
 
 namespace {
-
-model::Model build(const design::Garment& g) {
-  modeller::ModelResult result = modeller::build_model(g, {});
-  for (const Finding& f : result.findings) UNSCOPED_INFO(f.code << " " << f.message);
-  REQUIRE(result.model);
-  return *result.model;
-}
 
 RegionShape above(double y) {
   RegionShape shape;

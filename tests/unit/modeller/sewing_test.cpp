@@ -4,19 +4,14 @@
 
 #include "runtime/modeller/border.hpp"
 #include "runtime/modeller/modeller.hpp"
+#include "tests/unit/modeller/built.hpp"
 #include "tests/unit/modeller/garments.hpp"
 
 using namespace garment;
+using test::build;
 using test::whole;
 
 namespace {
-
-model::Model build(const design::Garment& g) {
-  modeller::ModelResult result = modeller::build_model(g, {});
-  for (const Finding& f : result.findings) UNSCOPED_INFO(f.code << " " << f.message);
-  REQUIRE(result.model);
-  return *result.model;
-}
 
 /// Number of free borders (closed loops of sides that only one triangle has), and Euler's characteristic.
 struct Topology {
