@@ -144,12 +144,7 @@ PanelPart eval_panel_part(Program& program, const Expr& expr, Scope& scope, cons
 
 bool covers_cloth(const design::Panel& panel, const RegionShape& shape) {
   constexpr int kSteps = 64;
-  RegionShape loop;
-  loop.kind = RegionShape::Kind::polygon;
-  for (const design::Edge& edge : panel.edges) {
-    const std::vector<Point2> line = edge.curve.polyline(1e-4);
-    loop.points.insert(loop.points.end(), line.begin(), line.end() - 1);
-  }
+  const RegionShape loop = design::outline_shape(panel);
   const design::RegionTest outline(panel, loop), region(panel, shape);
   Point2 low = loop.points[0], high = low;
   for (const Point2& p : loop.points) low = low.cwiseMin(p), high = high.cwiseMax(p);

@@ -9,23 +9,10 @@ namespace {
 using Kind = RegionShape::Kind;
 using Line = std::vector<Point2>;
 
-constexpr double kChordError = 2e-5;  // m
+constexpr double kChordError = 2e-5;    // m
+constexpr double kOutlineError = 1e-4;  // m
 
 double cross(const Point2& a, const Point2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-/// The part of an edge as a polyline, in the direction walked.
-Line polyline_of(const Panel& panel, const EdgePart& part) {
-  const geometry::Curve& curve = edge_of(panel, part).curve;
-  const double low = std::min(part.from, part.to), high = std::max(part.from, part.to);
-  std::vector<double> at;
-  const Line whole = curve.polyline(kChordError, &at);
-  Line line{curve.point_at(low)};
-  for (std::size_t k = 0; k < whole.size(); ++k)
-    if (at[k] > low && at[k] < high) line.push_back(whole[k]);
-  line.push_back(curve.point_at(high));
-  if (part.from > part.to) std::reverse(line.begin(), line.end());
-  return line;
-}
 
 /// Nearest point of a segment to `p`, as a share of its length.
 double nearest_share(const Point2& a, const Point2& b, const Point2& p) {
@@ -51,6 +38,29 @@ bool inside_polygon(const Line& corners, const Point2& p) {
 }
 
 }  // namespace
+
+std::vector<Point2> polyline_of(const Panel& panel, const EdgePart& part) {
+  const geometry::Curve& curve = edge_of(panel, part).curve;
+  const double low = std::min(part.from, part.to), high = std::max(part.from, part.to);
+  std::vector<double> at;
+  const std::vector<Point2> whole = curve.polyline(kChordError, &at);
+  std::vector<Point2> line{curve.point_at(low)};
+  for (std::size_t k = 0; k < whole.size(); ++k)
+    if (at[k] > low && at[k] < high) line.push_back(whole[k]);
+  line.push_back(curve.point_at(high));
+  if (part.from > part.to) std::reverse(line.begin(), line.end());
+  return line;
+}
+
+RegionShape outline_shape(const Panel& panel) {
+  RegionShape shape;
+  shape.kind = RegionShape::Kind::polygon;
+  for (const Edge& edge : panel.edges) {
+    const std::vector<Point2> points = edge.curve.polyline(kOutlineError);
+    if (!points.empty()) shape.points.insert(shape.points.end(), points.begin(), points.end() - 1);
+  }
+  return shape;
+}
 
 RegionFactors operator*(const RegionFactors& a, const RegionFactors& b) {
   return {a.stretch_warp * b.stretch_warp,

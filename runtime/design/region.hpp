@@ -63,6 +63,12 @@ struct Region {
   RegionFactors factors{};
 };
 
+/// The part of an edge or line as a polyline in the direction walked, within 0.02 mm of the curve; points in panel coordinates.
+std::vector<Point2> polyline_of(const Panel& panel, const EdgePart& part);
+
+/// The whole outline as drawn: a polygon.
+RegionShape outline_shape(const Panel& panel);
+
 /// A shape made ready for questions. Curves are followed within 0.02 mm. Keeps nothing of the panel.
 class RegionTest {
  public:

@@ -76,9 +76,9 @@ std::uint64_t state_hash(const State& state) {
 
 std::uint64_t model_hash(const Model& model) {
   Fnv hash;
-  // Ties and creases count where there are any: a garment without them is the model it was before the Model knew of them.
+  // What few garments have counts where there is any: a garment without it is the model it was before the Model knew of it.
 #define HASH_ARRAY(name, rows, refers_to, sign, unit) \
-  if ((Rows::rows != Rows::tie && Rows::rows != Rows::crease) || !model.name.empty()) hash.add(model.name);
+  if (!is_rare(Rows::rows) || !model.name.empty()) hash.add(model.name);
   GARMENT_MODEL_ARRAYS(HASH_ARRAY)
 #undef HASH_ARRAY
   for (const TensileLaw& law : model.laws) {
@@ -125,6 +125,10 @@ std::string summary_text(const Model& model) {
     const auto n = std::count(model.tie_closure.begin(), model.tie_closure.end(), static_cast<Index>(c));
     line(fmt::format("closure {}: {} {}", model.closures[c].name, n, n == 1 ? "tie" : "ties"));
   }
+  for (const RegionValues& r : model.regions)
+    line(fmt::format("region {} on {}: {} cm^2, {} g/m^2, bending {} and {} uN m, stretch {} and {} N/m", r.name, r.panel,
+                     format_number(r.area * 1e4, 5), format_number(r.areal_density * 1000, 4), format_number(r.bending[0] * 1e6, 4),
+                     format_number(r.bending[1] * 1e6, 4), format_number(r.tensile[0], 4), format_number(r.tensile[1], 4)));
   line("hash " + hash_text(model_hash(model)));
   return text;
 }
@@ -161,6 +165,17 @@ std::string dump_json(const Model& model) {
                                             quoted(s.name), number(s.length), list_text(s.particles));
                        }) +
           ",\n";
+  text +=
+      "  \"regions\": " +
+      objects_text(
+          model.regions,
+          [](const RegionValues& r) {
+            return fmt::format(
+                R"({{"name": {}, "panel": {}, "area": {}, "areal_density": {}, "thickness": {}, "friction": {}, "tensile": {}, "shear": {}, "bending": {}, "twist": {}, "rest_length": {}}})",
+                quoted(r.name), quoted(r.panel), number(r.area), number(r.areal_density), number(r.thickness), number(r.friction),
+                row_text(r.tensile), number(r.shear), row_text(r.bending), number(r.twist), row_text(r.rest_length));
+          }) +
+      ",\n";
   text += "  \"closures\": " +
           objects_text(model.closures,
                        [](const Closure& c) {

@@ -50,6 +50,22 @@ struct Closure {
   double mass = 0;              ///< kg, of the button itself; the particles of its place carry it
 };
 
+/// What the cloth of a region comes to on one panel: means over its area of what all its regions, layers and irons make of the
+/// panel's fabric together. For reports; directions are 0 warp, 1 weft.
+struct RegionValues {
+  std::string name, panel;
+  OriginId origin;
+  double area = 0;                       ///< m^2
+  double areal_density = 0;              ///< kg/m^2
+  double thickness = 0;                  ///< m
+  double friction = 0;                   ///< Coulomb, on bodies
+  std::array<double, 2> tensile{};       ///< dN/dstrain at rest, N/m
+  double shear = 0;                      ///< G, N/m per rad
+  std::array<double, 2> bending{};       ///< B, N m
+  double twist = 0;                      ///< Ct, N m
+  std::array<double, 2> rest_length{};   ///< over the length as cut
+};
+
 /// By how much a tie may be too long before its pull no longer grows, m: closures may start far apart, and are brought
 /// together without tearing at the cloth.
 inline constexpr double kTieReach = 5e-3;
@@ -126,11 +142,24 @@ struct Model {
   std::vector<Index> crease_bend;                ///< index into bend, ascending
   std::vector<double> crease_angle;              ///< rad
   std::vector<Indices<2>> crease_axis;           ///< particle ids
+  // --- folds: fitted stencils that are not flat at rest, because a seam, a pleat or the iron folded the cloth there. The
+  //     curvatures at rest are those of the stencil's particles at `fold_place`, which turn with the cloth on this side of the
+  //     fold: by the rotation that carries the places with z = 0 best (least squares) to where their particles are
+  std::vector<Index> fold_fit;                   ///< index into fits, ascending
+  std::vector<Index> fold_begin;                 ///< CSR [n_folds + 1]
+  std::vector<Vector3d> fold_place;              ///< m, in the order of the fit's particles, any axes
+  // --- twists: cells that are twisted at rest: kappa_12 has this part along the cell's normal
+  std::vector<Index> twist_cell;                 ///< index into cells, ascending
+  std::vector<double> twist_rest;                ///< 1/m
+  // --- padding: what lies between the cloth and the bodies under it
+  std::vector<Index> pad_particle;               ///< ascending
+  std::vector<double> pad_thickness;             ///< m
   // --- tables
   std::vector<TensileLaw> laws;
   std::vector<PanelRange> panels;
   std::vector<SeamChain> seams;
   std::vector<Closure> closures;
+  std::vector<RegionValues> regions;
   Vector3d gravity{0, -9.80665, 0};
 
   std::size_t n_particles() const { return mass.size(); }

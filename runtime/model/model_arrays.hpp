@@ -22,11 +22,32 @@ enum class Rows {
   hold,
   tie,
   crease,
+  fold,
+  fold_bound,
+  fold_entry,
+  twist,
+  pad,
   panel,
   law,
   closure,
   none
 };
+
+/// Rows that most garments have none of.
+inline bool is_rare(Rows rows) {
+  switch (rows) {
+    case Rows::tie:
+    case Rows::crease:
+    case Rows::fold:
+    case Rows::fold_bound:
+    case Rows::fold_entry:
+    case Rows::twist:
+    case Rows::pad:
+      return true;
+    default:
+      return false;
+  }
+}
 
 /// Number of rows of that kind.
 inline std::size_t row_count(const Model& m, Rows rows) {
@@ -57,6 +78,16 @@ inline std::size_t row_count(const Model& m, Rows rows) {
       return m.tie.size();
     case Rows::crease:
       return m.crease_bend.size();
+    case Rows::fold:
+      return m.fold_fit.size();
+    case Rows::fold_bound:
+      return m.fold_fit.empty() ? m.fold_begin.size() : m.fold_fit.size() + 1;
+    case Rows::fold_entry:
+      return m.fold_place.size();
+    case Rows::twist:
+      return m.twist_cell.size();
+    case Rows::pad:
+      return m.pad_particle.size();
     case Rows::panel:
       return m.panels.size();
     case Rows::law:
@@ -118,5 +149,12 @@ inline std::size_t row_count(const Model& m, Rows rows) {
   X(tie_closure,      tie,       closure,   any,          "")      \
   X(crease_bend,      crease,    bend,      any,          "")      \
   X(crease_angle,     crease,    none,      any,          "rad")   \
-  X(crease_axis,      crease,    particle,  any,          "")
+  X(crease_axis,      crease,    particle,  any,          "")      \
+  X(fold_fit,         fold,      fit,       any,          "")      \
+  X(fold_begin,       fold_bound, fold_entry, any,        "")      \
+  X(fold_place,       fold_entry, none,     any,          "m")     \
+  X(twist_cell,       twist,     cell,      any,          "")      \
+  X(twist_rest,       twist,     none,      any,          "1/m")   \
+  X(pad_particle,     pad,       particle,  any,          "")      \
+  X(pad_thickness,    pad,       none,      positive,     "m")
 // clang-format on

@@ -62,6 +62,12 @@ class Check {
         return fail(fmt::format("the entries of fit {} end before they begin", k));
     if (!m_.fit_begin.empty() && static_cast<std::size_t>(m_.fit_begin.back()) != m_.fit_particle.size())
       fail("the fits do not cover all entries");
+    for (std::size_t f = 0; f < std::min(m_.fold_fit.size(), m_.fold_begin.size()); ++f) {
+      const Index k = m_.fold_fit[f];
+      if (f + 1 >= m_.fold_begin.size() || k < 0 || static_cast<std::size_t>(k) + 1 >= m_.fit_begin.size() ||
+          m_.fold_begin[f + 1] - m_.fold_begin[f] != m_.fit_begin[k + 1] - m_.fit_begin[k])
+        return fail(fmt::format("fold {} has not the places of its fit's particles", f));
+    }
     for (const SeamChain& seam : m_.seams)
       for (Index i : seam.particles)
         if (i < 0 || static_cast<std::size_t>(i) >= m_.n_particles())

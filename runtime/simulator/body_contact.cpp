@@ -56,8 +56,11 @@ BodyContact::BodyContact(const model::Model& model, const std::vector<body::Body
       offset_(settings.offset),
       stiffness_(settings.stiffness * spacing * spacing),
       extra_offset_(model.n_particles(), 0),
+      padding_(model.n_particles(), 0),
       memory_(model.n_particles()),
-      soundings_(bodies.size(), std::vector<Sounding>(model.n_particles())) {}
+      soundings_(bodies.size(), std::vector<Sounding>(model.n_particles())) {
+  for (std::size_t k = 0; k < model.pad_particle.size(); ++k) padding_[model.pad_particle[k]] = model.pad_thickness[k];
+}
 
 void BodyContact::find(const Vectors& x) {
   pushes_.clear();
@@ -103,7 +106,7 @@ void BodyContact::find_of(std::size_t b, const Vectors& x) {
     for (std::size_t i = begin; i < end; ++i) {
       Pushes& out = found_[i];
       out.n = 0;
-      const double offset = offset_ + extra_offset_[i] + model_.thickness[i] / 2;
+      const double offset = offset_ + extra_offset_[i] + model_.thickness[i] / 2 + padding_[i];
       Sounding& last = soundings[i];
       const double moved = last.known ? (x[i] - last.at).norm() : 0;
       if (last.known && last.distance - moved > 2 * offset) continue;

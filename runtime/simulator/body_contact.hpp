@@ -87,6 +87,7 @@ class BodyContact {
   const std::vector<body::Body>& bodies_;
   double offset_, stiffness_;
   std::vector<double> extra_offset_;
+  std::vector<double> padding_;  // of every particle, m
   std::vector<Push> pushes_, narrow_;
   std::vector<Pushes> found_;
   std::vector<Memory> memory_;                    // [n_particles]

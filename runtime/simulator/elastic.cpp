@@ -1,5 +1,7 @@
 #include "runtime/simulator/elastic.hpp"
 
+#include <Eigen/SVD>
+
 #include "runtime/base/parallel.hpp"
 #include "runtime/simulator/elastic_kernels.hpp"
 #include "runtime/simulator/elastic_stencils.hpp"
@@ -8,8 +10,37 @@ namespace garment::simulator {
 namespace {
 
 constexpr std::size_t kRowGrain = 2048;
+constexpr double kLeastStretch = 1e-3;
 
 enum class Wanted { energy, force, hessian };
+
+/// The curvatures of a folded stencil at rest, turned with the cloth: by the rotation R that carries the places at rest best
+/// onto the particles (Kabsch 1976). When particles move by dx, R turns by `stretch` times the sum of (R place) x dx: the inverse of
+/// tr(S) I - S, S = R (RT sum x placeT) RT.
+struct FoldedRest {
+  Matrix3d curvature, rotation, stretch;
+
+  FoldedRest() = default;
+  FoldedRest(const ElasticStencils& s, const Fold& fold, const Vector3d* x) {
+    const Vector3d& origin = x[s.fold_frames[fold.begin].particle];  // the places' sum is zero: any origin does
+    Matrix3d together = Matrix3d::Zero();
+    for (std::size_t j = fold.begin; j < fold.end; ++j)
+      together += (x[s.fold_frames[j].particle] - origin) * s.fold_frames[j].place.transpose();
+    const Eigen::JacobiSVD<Matrix3d> svd(together, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    const double mirrored = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
+    rotation = svd.matrixU() * Vector3d(1, 1, mirrored).asDiagonal() * svd.matrixV().transpose();
+    curvature = rotation * fold.rest;
+    Vector3d size = svd.singularValues();
+    size[2] *= mirrored;
+    const double least = kLeastStretch * size[0];  // cloth crushed to a line turns with nothing
+    Vector3d inverse;
+    for (int k = 0; k < 3; ++k) {
+      const double other = size.sum() - size[k];
+      inverse[k] = other > least && other > 0 ? 1 / other : 0;
+    }
+    stretch = svd.matrixU() * inverse.asDiagonal() * svd.matrixU().transpose();
+  }
+};
 
 /// Works through one chunk. Writes forces and upper blocks of particles that no other chunk of this colour
 /// touches.
@@ -81,7 +112,8 @@ class ChunkPass {
   double cell(const CellStencil& s) const {
     const auto& p = s.particle;
     const Vector3d &x0 = at(p[0]), &x1 = at(p[1]), &x2 = at(p[2]), &x3 = at(p[3]);
-    const Vector3d twist = (x2 - x3) - (x1 - x0);
+    Vector3d twist = (x2 - x3) - (x1 - x0);
+    if (s.twisted >= 0) twist -= s_.twisted[s.twisted].now;
     const Direction a(x1 - x0), b(x2 - x3), c(x3 - x0), d(x2 - x1);
     const TrellisAngle ac(a, c), ad(a, d), bd(b, d), bc(b, c);
     const double k = s.corner_shear;
@@ -177,8 +209,14 @@ class ChunkPass {
     Matrix3d curvature = Matrix3d::Zero();
     for (std::size_t j = s.begin + 1; j < s.end; ++j)
       curvature += (at(s_.fit_particle[j]) - origin) * s_.fit_weight[j].transpose();
+    FoldedRest rest;
+    if (s.fold >= 0) {
+      rest = FoldedRest(s_, s_.folds[s.fold], x_);
+      curvature -= rest.curvature;
+    }
     const Matrix3d moment = curvature * s.rigidity;
     if constexpr (kForce) {
+      if (s.fold >= 0) push_frame(s_.folds[s.fold], rest, moment);
       Vector3d sum = Vector3d::Zero();
       for (std::size_t j = s.begin + 1; j < s.end; ++j) {
         const Vector3d f = moment * s_.fit_weight[j];
@@ -188,6 +226,15 @@ class ChunkPass {
       push(s_.fit_particle[s.begin], sum);
     }
     return 0.5 * curvature.cwiseProduct(moment).sum();
+  }
+
+  /// What the moment does to the cloth that the fold turns with.
+  void push_frame(const Fold& fold, const FoldedRest& rest, const Matrix3d& moment) const {
+    Vector3d torque = Vector3d::Zero();
+    for (int a = 0; a < 3; ++a) torque += rest.curvature.col(a).cross(moment.col(a));
+    const Vector3d turn = rest.stretch * torque;
+    for (std::size_t j = fold.begin; j < fold.end; ++j)
+      push(s_.fold_frames[j].particle, turn.cross(rest.rotation * s_.fold_frames[j].place));
   }
 
   double tie(const TieStencil& s) const {
@@ -249,6 +296,20 @@ void fill_constant(const ElasticStencils& s, BlockMatrix& hessian) {
   });
 }
 
+void turn(Crease& c, const std::vector<Vector3d>& x) {
+  const Direction in(x[c.in[1]] - x[c.in[0]]);
+  const Vector3d along = x[c.axis[1]] - x[c.axis[0]];
+  const Direction axis(along - along.dot(in.unit) * in.unit);
+  Matrix3d across;  // axis.unit x
+  across << 0, -axis.unit.z(), axis.unit.y(), axis.unit.z(), 0, -axis.unit.x(), -axis.unit.y(), axis.unit.x(), 0;
+  c.turn = Matrix3d::Identity() + c.sine * across + (1 - c.cosine) * across * across;
+}
+
+void turn(TwistedCell& t, const std::vector<Vector3d>& x) {
+  const auto& p = t.particle;
+  t.now = t.size * Direction((x[p[2]] - x[p[0]]).cross(x[p[3]] - x[p[1]])).unit;
+}
+
 }  // namespace
 
 ElasticModel::ElasticModel(const model::Model& model) : stencils_(std::make_unique<ElasticStencils>(model)) {
@@ -262,14 +323,8 @@ std::size_t ElasticModel::n_particles() const { return stencils_->n_particles; }
 void ElasticModel::set_tensile_scale(double scale) { stencils_->tensile_scale = scale; }
 double ElasticModel::tensile_scale() const { return stencils_->tensile_scale; }
 void ElasticModel::follow(const std::vector<Vector3d>& x) {
-  for (Crease& c : stencils_->creases) {
-    const Direction in(x[c.in[1]] - x[c.in[0]]);
-    const Vector3d along = x[c.axis[1]] - x[c.axis[0]];
-    const Direction axis(along - along.dot(in.unit) * in.unit);
-    Matrix3d across;  // axis.unit x
-    across << 0, -axis.unit.z(), axis.unit.y(), axis.unit.z(), 0, -axis.unit.x(), -axis.unit.y(), axis.unit.x(), 0;
-    c.turn = Matrix3d::Identity() + c.sine * across + (1 - c.cosine) * across * across;
-  }
+  for (Crease& c : stencils_->creases) turn(c, x);
+  for (TwistedCell& t : stencils_->twisted) turn(t, x);
 }
 BlockMatrix ElasticModel::make_matrix() const { return BlockMatrix(stencils_->pattern); }
 

@@ -52,7 +52,7 @@ class ElasticModel {
   double energy_force_hessian(const std::vector<Eigen::Vector3d>& x, std::vector<Eigen::Vector3d>& force,
                               BlockMatrix& hessian) const;
 
-  /// Turns the rest folds of creases with the cloth at x, m [n_particles]; energies and forces then hold them until the next
+  /// Turns creases and what is twisted at rest with the cloth at x, m [n_particles]; energies and forces then hold them until the next
   /// call. Not to be called while another function runs.
   void follow(const std::vector<Eigen::Vector3d>& x);
 

@@ -182,6 +182,12 @@ class Builder {
   }
 
   void add_cells() {
+    std::vector<Index> twisted(m_.cell.size(), -1);
+    for (std::size_t t = 0; t < m_.twist_cell.size(); ++t) {
+      const Index c = m_.twist_cell[t];
+      twisted[c] = static_cast<Index>(t);
+      out_.twisted.push_back({m_.cell[c], m_.twist_rest[t] * m_.cell_size[c][0] * m_.cell_size[c][1]});
+    }
     sort_kind(
         m_.cell.size(), &Chunk::cells, [&](std::size_t k) { return std::span<const Index>(m_.cell[k]); },
         [&](std::size_t k) {
@@ -191,7 +197,8 @@ class Builder {
                                 {place(p[0], p[1]), place(p[0], p[2]), place(p[0], p[3]), place(p[1], p[2]),
                                  place(p[1], p[3]), place(p[2], p[3])},
                                 m_.cell_shear[k] * area / 4,
-                                twist});
+                                twist,
+                                twisted[k]});
           constexpr double kSign[4] = {1, -1, 1, -1};
           for (int a = 0; a < 4; ++a)
             for (int b = a + 1; b < 4; ++b) add_constant(p[a], p[b], kSign[a] * kSign[b] * twist);
@@ -235,6 +242,8 @@ class Builder {
 
   void add_fits() {
     const std::size_t n = m_.fit_begin.empty() ? 0 : m_.fit_begin.size() - 1;
+    fold_of_.assign(n, -1);
+    for (std::size_t f = 0; f < m_.fold_fit.size(); ++f) fold_of_[m_.fold_fit[f]] = static_cast<Index>(f);
     sort_kind(
         n, &Chunk::fits, [&](std::size_t k) { return fit_particles(k); }, [&](std::size_t k) { add_fit(k); });
   }
@@ -247,12 +256,50 @@ class Builder {
     const std::span<const Index> p = fit_particles(k);
     const std::size_t begin = out_.fit_particle.size();
     out_.fits.push_back({begin, begin + p.size(), rigidity});
+    if (fold_of_[k] >= 0) add_fold(static_cast<std::size_t>(fold_of_[k]), k);
     const Eigen::Vector3d* w = m_.fit_weight.data() + m_.fit_begin[k];
     for (std::size_t a = 0; a < p.size(); ++a) {
       out_.fit_particle.push_back(p[a]);
       out_.fit_weight.push_back(w[a]);
       for (std::size_t b = a + 1; b < p.size(); ++b) add_constant(p[a], p[b], w[a].dot(rigidity * w[b]));
     }
+  }
+
+  /// The fold of the fit that was added last. It turns with the cloth on this side of it, z = 0: turned with both sides, a
+  /// fold by half a turn would hardly feel being opened, and could not tell face from back.
+  void add_fold(std::size_t f, std::size_t k) {
+    FitStencil& fit = out_.fits.back();
+    fit.fold = static_cast<Index>(out_.folds.size());
+    const Eigen::Vector3d *place = m_.fold_place.data() + m_.fold_begin[f], *w = m_.fit_weight.data() + m_.fit_begin[k];
+    const std::span<const Index> particle = fit_particles(k);
+    const std::size_t begin = out_.fold_frames.size();
+    Fold fold{begin, begin, Eigen::Matrix3d::Zero()};
+    for (std::size_t j = 0; j < particle.size(); ++j) fold.rest += (place[j] - place[0]) * w[j].transpose();
+    for (bool whole : {false, true}) {  // of a narrow sector: with all of it
+      out_.fold_frames.resize(begin);
+      for (std::size_t j = 0; j < particle.size(); ++j)
+        if (whole || place[j].z() == 0) out_.fold_frames.push_back({particle[j], place[j]});
+      if (centre(begin)) break;
+    }
+    fold.end = out_.fold_frames.size();
+    out_.folds.push_back(fold);
+  }
+
+  /// Moves the places from `begin` on to their middle; false where they lie on a line.
+  bool centre(std::size_t begin) {
+    const auto n = static_cast<double>(out_.fold_frames.size() - begin);
+    if (n < 3) return false;
+    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+    for (std::size_t j = begin; j < out_.fold_frames.size(); ++j) middle += out_.fold_frames[j].place / n;
+    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+    for (std::size_t j = begin; j < out_.fold_frames.size(); ++j) {
+      Eigen::Vector3d& p = out_.fold_frames[j].place;
+      p -= middle;
+      spread += p * p.transpose();
+    }
+    // The sum of the products of two eigenvalues against the square of their sum.
+    const double trace = spread.trace(), pairs = 0.5 * (trace * trace - (spread * spread).trace());
+    return pairs > 1e-3 * trace * trace;
   }
 
   void add_ties() {
@@ -284,6 +331,7 @@ class Builder {
   std::size_t n_chunks_ = 0;
   std::vector<std::vector<Index>> touched_;
   std::vector<double> constant_;
+  std::vector<Index> fold_of_;  // of every fit: its fold, or -1
 };
 
 }  // namespace

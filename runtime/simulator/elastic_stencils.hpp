@@ -35,6 +35,14 @@ struct CellStencil {
   std::array<BlockPlace, 6> place;  ///< 01 02 03 12 13 23
   double corner_shear;              ///< G times a quarter of the cell, N m
   double twist;                     ///< 4 Ct / (h1 h2), N/m: E = twist/2 |x2 - x1 - x3 + x0|^2
+  Index twisted = -1;               ///< into twisted; -1: flat at rest
+};
+
+/// What x2 - x1 - x3 + x0 of a cell is at rest: `size` along the normal that the cell had at the last ElasticModel::follow.
+struct TwistedCell {
+  Indices<4> particle;
+  double size = 0;                  ///< m
+  Eigen::Vector3d now = Eigen::Vector3d::Zero();
 };
 
 struct MembraneStencil {
@@ -63,6 +71,19 @@ struct Crease {
 struct FitStencil {
   std::size_t begin, end;    ///< into fit_particle, fit_weight
   Eigen::Matrix3d rigidity;  ///< D times the area
+  Index fold = -1;           ///< into folds; -1: flat at rest
+};
+
+/// The curvatures of a fitted stencil at rest, K_11, K_22 and K_12 as columns, in the axes of its places.
+struct Fold {
+  std::size_t begin, end;    ///< into fold_frames: the particles that it turns with
+  Eigen::Matrix3d rest;
+};
+
+/// A particle that a fold turns with, and its place at rest from the middle of all those, m.
+struct FoldFrame {
+  Index particle;
+  Eigen::Vector3d place;
 };
 
 /// A tie with equal particles taken together: span = sum coefficient[k] x[particle[k]], and the coefficients sum to zero.
@@ -93,6 +114,9 @@ struct ElasticStencils {
   std::vector<MembraneStencil> membranes;
   std::vector<BendStencil> bends;
   std::vector<Crease> creases;
+  std::vector<TwistedCell> twisted;
+  std::vector<Fold> folds;
+  std::vector<FoldFrame> fold_frames;
   std::vector<FitStencil> fits;
   std::vector<TieStencil> ties;
   std::vector<Index> fit_particle;
