@@ -82,22 +82,34 @@ int steps_for(double x, double& cost) {
   return best;
 }
 
-/// The loop of the border that piece `k` belongs to.
-std::size_t loop_of(const Outline& outline, std::size_t k) {
-  std::size_t l = 0;
-  while (l + 1 < outline.loops.size() && outline.loops[l + 1] <= k) ++l;
-  return l;
-}
-
-/// Who follows whom: the next vertex, and after the last of a loop its first. `begin` holds the first vertex of each loop.
-void close_loops(const std::vector<int>& begin, Border& border) {
+/// Who follows whom: the next vertex, and after the last of a loop its first, of a line nobody.
+void close_loops(Border& border) {
   const auto n = static_cast<int>(border.at.size());
   border.next.resize(border.at.size());
   for (int k = 0; k < n; ++k) border.next[k] = k + 1;
-  for (std::size_t l = 0; l < begin.size(); ++l) {
-    const int end = l + 1 < begin.size() ? begin[l + 1] : n;
-    if (end > begin[l]) border.next[end - 1] = begin[l];
+  for (std::size_t l = 0; l < border.loops.size(); ++l)
+    if (border.end_of(l) > border.loops[l]) border.next[border.end_of(l) - 1] = l < border.n_closed ? border.loops[l] : -1;
+}
+
+/// Vertices of one place become one.
+void join_vertices(const Outline& outline, const std::vector<std::vector<int>>& vertex_at_break, Border& border) {
+  border.same.resize(border.at.size());
+  for (std::size_t k = 0; k < border.same.size(); ++k) border.same[k] = static_cast<int>(k);
+  auto root = [&](int v) {
+    while (border.same[v] != v) v = border.same[v];
+    return v;
+  };
+  for (const Joint& joint : outline.joints) {
+    int v[2];
+    for (int e = 0; e < 2; ++e) {
+      const std::vector<double>& breaks = outline.pieces[joint.piece[e]].breaks;
+      const auto at = std::lower_bound(breaks.begin(), breaks.end(), joint.t[e] - 1e-12) - breaks.begin();
+      v[e] = root(vertex_at_break[joint.piece[e]][std::min<std::size_t>(static_cast<std::size_t>(at), breaks.size() - 1)]);
+    }
+    border.same[std::max(v[0], v[1])] = std::min(v[0], v[1]);
   }
+  for (std::size_t k = 0; k < border.same.size(); ++k) border.same[k] = root(static_cast<int>(k));
+  for (std::size_t k = 0; k < border.same.size(); ++k) border.at[k] = border.at[border.same[k]];
 }
 
 }  // namespace
@@ -179,6 +191,20 @@ GridFrame make_frame(const design::Panel& panel, const Outline& outline, double 
   return frame;
 }
 
+std::vector<int> vertices_on(const design::EdgePart& part, const BorderPanel& outline, const Border& border) {
+  std::vector<int> result;
+  double low = std::min(part.from, part.to), high = std::max(part.from, part.to), slack = 0.2 * outline.h;
+  auto n = static_cast<int>(border.at.size());
+  for (int k = 0; k < n; ++k) {
+    const Piece& piece = outline.outline.pieces[border.piece[k]];
+    if (piece.edge != part.edge || piece.on != part.on) continue;
+    auto inside = [&](double arc) { return arc >= low - slack && arc <= high + slack; };
+    if (inside(border.arc_from[k]) && (result.empty() || result.back() != k)) result.push_back(k);
+    if (border.next[k] >= 0 && inside(border.arc_to[k])) result.push_back(border.next[k]);
+  }
+  return result;
+}
+
 Borders make_borders(const std::vector<BorderPanel>& panels, const std::vector<GridFrame>& frames,
                      const Matched& matched) {
   std::vector<std::vector<std::vector<std::array<double, 2>>>> crossings(panels.size());
@@ -207,7 +233,8 @@ Borders make_borders(const std::vector<BorderPanel>& panels, const std::vector<G
 
   Borders borders;
   borders.panels.resize(panels.size());
-  std::vector<std::vector<int>> loop_begin(panels.size());  // of each loop: its first vertex
+  std::vector<std::vector<std::vector<int>>> vertex_at_break(panels.size());  // panel, piece, break
+  for (std::size_t p = 0; p < panels.size(); ++p) vertex_at_break[p].resize(panels[p].outline.pieces.size());
   for (const Stretch& s : matched.stretches) {
     const Piece& piece = panels[s.panel].outline.pieces[s.piece];
     Border& border = borders.panels[s.panel];
@@ -219,8 +246,9 @@ Borders make_borders(const std::vector<BorderPanel>& panels, const std::vector<G
       return t0 + (t1 - t0) * (s.reversed ? 1 - f[m - k] : f[k]);
     };
     const Outline& outline = panels[s.panel].outline;
-    const std::size_t loop = loop_of(outline, static_cast<std::size_t>(s.piece));
-    while (loop_begin[s.panel].size() <= loop) loop_begin[s.panel].push_back(static_cast<int>(border.at.size()));
+    const std::size_t loop = outline.loop_of(static_cast<std::size_t>(s.piece));
+    while (border.loops.size() <= loop) border.loops.push_back(static_cast<int>(border.at.size()));
+    vertex_at_break[s.panel][s.piece].push_back(static_cast<int>(border.at.size()));
     borders.stretch_first.push_back(static_cast<int>(border.at.size()));
     borders.stretch_count.push_back(static_cast<int>(m));
     borders.stretch_loop.push_back(static_cast<int>(loop));
@@ -228,15 +256,32 @@ Borders make_borders(const std::vector<BorderPanel>& panels, const std::vector<G
       border.half = border.at.size();
     for (std::size_t k = 0; k < m; ++k) {
       border.at.push_back(piece.at(position(k)));
-      border.bulge.push_back(piece.bulge(position(k), position(k + 1)));
+      border.bulge.push_back(loop < outline.n_closed ? piece.bulge(position(k), position(k + 1)) : 0);
       border.piece.push_back(s.piece);
       border.arc_from.push_back(piece.arc(position(k)));
       border.arc_to.push_back(piece.arc(position(k + 1)));
     }
+    if (loop >= outline.n_closed && s.lower + 2 == piece.breaks.size()) {  // a line ends with a vertex of its own
+      border.at.push_back(piece.at(t1));
+      border.bulge.push_back(0);
+      border.piece.push_back(s.piece);
+      border.arc_from.push_back(piece.arc(t1));
+      border.arc_to.push_back(piece.arc(t1));
+    }
   }
   for (std::size_t p = 0; p < panels.size(); ++p) {
-    close_loops(loop_begin[p], borders.panels[p]);
-    borders.panels[p].loops = std::move(loop_begin[p]);
+    Border& border = borders.panels[p];
+    const Outline& outline = panels[p].outline;
+    border.n_closed = outline.n_closed;
+    close_loops(border);
+    for (std::size_t k = 0; k < outline.pieces.size(); ++k) {  // the end of a piece is the start of what follows
+      const std::size_t loop = outline.loop_of(k);
+      const bool last = k + 1 == outline.end_of(loop);
+      vertex_at_break[p][k].push_back(loop >= outline.n_closed ? border.end_of(loop) - 1
+                                      : last                   ? border.loops[loop]
+                                                               : vertex_at_break[p][k + 1].front());
+    }
+    join_vertices(outline, vertex_at_break[p], border);
   }
   for (std::size_t p = 0; p < panels.size(); ++p) {  // halves: mirror images to the bit
     Border& border = borders.panels[p];

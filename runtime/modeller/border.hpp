@@ -33,16 +33,24 @@ struct GridFrame {
 /// lowest point.
 GridFrame make_frame(const design::Panel& panel, const Outline& outline, double h);
 
-/// A panel's border particles, loop by loop, with the cloth to the left. Segment k runs from vertex k to vertex next[k].
+/// A panel's border particles, loop by loop, with the cloth to the left; then those of its inner lines, line by line. Segment
+/// k runs from vertex k to vertex next[k].
 struct Border {
   std::vector<Point2> at;
-  std::vector<int> next;      ///< k + 1, at the end of a loop its first vertex
-  std::vector<int> loops;     ///< first vertex of each loop
+  std::vector<int> next;      ///< k + 1, at the end of a loop its first vertex, at the end of a line -1
+  std::vector<int> loops;     ///< first vertex of each loop and line
+  std::size_t n_closed = 0;   ///< number of loops that are closed
+  std::vector<int> same;      ///< the vertex that stands for this one where lines meet the border or each other; else itself
   std::vector<double> bulge;  ///< area between segment and curve, positive outside the polygon, m^2
   std::vector<int> piece;     ///< of segment k
   std::vector<double> arc_from, arc_to;  ///< ends of segment k as arc lengths on its piece's curve, m
   std::size_t half =
       0;  ///< symmetric panels: vertex `half` is the upper fold point, vertex 0 the lower; else 0
+
+  /// Number of vertices on closed loops; the others lie on lines.
+  std::size_t n_outline() const { return n_closed < loops.size() ? static_cast<std::size_t>(loops[n_closed]) : at.size(); }
+  /// One past the last vertex of loop or line `l`.
+  int end_of(std::size_t l) const { return l + 1 < loops.size() ? loops[l + 1] : static_cast<int>(at.size()); }
 };
 
 struct Borders {
@@ -55,6 +63,9 @@ struct Borders {
 
 Borders make_borders(const std::vector<BorderPanel>& panels, const std::vector<GridFrame>& frames,
                      const Matched& matched);
+
+/// Border vertices that lie on a part of an edge or line, within 0.2 h, in the border's order.
+std::vector<int> vertices_on(const design::EdgePart& part, const BorderPanel& outline, const Border& border);
 
 /// Fractions 0 = f_0 < ... < f_n = 1 for a border `length` grid spacings long: candidates (fraction, weight
 /// 0..1) where they fit, evenly filled between, steps near one spacing and none under 0.55 where the length

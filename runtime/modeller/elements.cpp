@@ -168,7 +168,7 @@ std::vector<double> vertex_areas(const PanelMesh& mesh, const Border& border, do
     sum += cell;
     for (int v : c) share[v] += cell / 4;
   }
-  std::size_t n = border.at.size();
+  std::size_t n = border.n_outline();
   auto length = [&](std::size_t k) { return (border.at[border.next[k]] - border.at[k]).norm(); };
   for (std::size_t k = 0; k < n; ++k) {
     sum += border.bulge[k];

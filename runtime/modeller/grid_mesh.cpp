@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "runtime/geometry/triangulate.hpp"
 #include "runtime/modeller/mesh_quality.hpp"
@@ -38,12 +39,17 @@ bool enters(const Vector2d& a, const Vector2d& b, const Vector2d& low, const Vec
   return t0 < t1;
 }
 
-/// The grid over the loop's bounding box; works in units of the spacings.
+/// The grid over the border's bounding box; works in units of the spacings.
 class Grid {
  public:
-  Grid(const std::vector<Vector2d>& loop, const std::vector<int>& next, double hp, double hq) : next_(next), hp_(hp), hq_(hq) {
+  Grid(const LoopBorder& border, double hp, double hq)
+      : next_(border.next), lines_(border.lines), used_(border.at.size(), 0), hp_(hp), hq_(hq) {
+    for (std::size_t k = 0; k < next_.size(); ++k)
+      if (next_[k] >= 0) used_[k] = used_[next_[k]] = 1;
+    for (const auto& line : lines_) used_[line[0]] = used_[line[1]] = 1;
+    for (const auto& [a, b] : lines_) both_ways_.insert({{a, b}, {b, a}});
     Vector2d low(1e300, 1e300), high(-1e300, -1e300);
-    for (const Vector2d& x : loop) {
+    for (const Vector2d& x : border.at) {
       loop_.emplace_back(x.x() / hp, x.y() / hq);
       low = low.cwiseMin(loop_.back());
       high = high.cwiseMax(loop_.back());
@@ -69,6 +75,7 @@ class Grid {
     int n = static_cast<int>(loop_.size());
     auto on_loop = [&](int u, int v) { return u < n && v == next_[u]; };
     std::vector<char> taken(loop_.size(), 0);
+    std::set<std::array<int, 2>> open = both_ways_;  // sides of lines with no full cell to their left
     std::vector<std::array<int, 2>> inner;
     for (int j = 0; j + 1 < nj_; ++j) {
       for (int i = 0; i + 1 < ni_; ++i) {
@@ -79,6 +86,8 @@ class Grid {
           int u = c[k], v = c[(k + 1) % 4];
           if (on_loop(u, v))
             taken[u] = 1;
+          else if (both_ways_.count({u, v}) > 0)
+            open.erase({u, v});
           else if (!beyond[k])
             inner.push_back({v, u});
         }
@@ -86,7 +95,8 @@ class Grid {
     }
     std::vector<std::array<int, 2>> border;
     for (int u = 0; u < n; ++u)
-      if (!taken[u]) border.push_back({u, next_[u]});
+      if (!taken[u] && next_[u] >= 0) border.push_back({u, next_[u]});
+    border.insert(border.end(), open.begin(), open.end());
     border.insert(border.end(), inner.begin(), inner.end());
     return border;
   }
@@ -95,6 +105,9 @@ class Grid {
   static constexpr int kFree = -1, kBlocked = -2;
   std::vector<Vector2d> loop_;
   const std::vector<int>& next_;
+  const std::vector<std::array<int, 2>>& lines_;
+  std::set<std::array<int, 2>> both_ways_;  // the segments of the lines, from either end
+  std::vector<char> used_;                  // vertices on any segment
   double hp_, hq_;
   int i0_ = 0, j0_ = 0, ni_ = 0, nj_ = 0;
   std::vector<int> node_;  // vertex at each crossing
@@ -109,7 +122,9 @@ class Grid {
 
   template <class F>
   void for_each_segment(const F& f) const {
-    for (std::size_t k = 0; k < loop_.size(); ++k) f(loop_[k], loop_[next_[k]]);
+    for (std::size_t k = 0; k < loop_.size(); ++k)
+      if (next_[k] >= 0) f(loop_[k], loop_[next_[k]]);
+    for (const auto& [a, b] : lines_) f(loop_[a], loop_[b]);
   }
 
   /// Calls f(i, j) for grid indices within `reach` of the box of a and b.
@@ -152,6 +167,7 @@ class Grid {
   std::vector<std::vector<int>> segments_by_row() const {
     std::vector<std::vector<int>> bins(nj_);
     for (std::size_t k = 0; k < loop_.size(); ++k) {
+      if (next_[k] < 0) continue;
       const Vector2d &a = loop_[k], &b = loop_[next_[k]];
       int ja = static_cast<int>(std::floor(std::min(a.y(), b.y()))) - j0_,
           jb = static_cast<int>(std::floor(std::max(a.y(), b.y()))) - j0_;
@@ -180,6 +196,7 @@ class Grid {
 
   void place_on_border() {
     for (std::size_t k = 0; k < loop_.size(); ++k) {
+      if (!used_[k]) continue;
       Vector2d r(std::floor(loop_[k].x() + 0.5), std::floor(loop_[k].y() + 0.5));
       if ((loop_[k] - r).cwiseAbs().maxCoeff() < kOnLine) {
         node_[at(static_cast<int>(r.x()) - i0_, static_cast<int>(r.y()) - j0_)] = static_cast<int>(k);
@@ -225,10 +242,10 @@ class Grid {
 
 }  // namespace
 
-LoopMesh mesh_loop(const std::vector<Vector2d>& loop, const std::vector<int>& next, double hp, double hq) {
+LoopMesh mesh_loop(const LoopBorder& loop, double hp, double hq) {
   LoopMesh mesh;
-  mesh.at = loop;
-  Grid grid(loop, next, hp, hq);
+  mesh.at = loop.at;
+  Grid grid(loop, hp, hq);
   grid.build(mesh);
   std::vector<std::array<int, 2>> border = grid.ring_border();
   if (border.empty()) {
@@ -245,7 +262,7 @@ LoopMesh mesh_loop(const std::vector<Vector2d>& loop, const std::vector<int>& ne
   std::vector<int> vertex;
   std::vector<Vector2d> points;
   for (std::size_t v = 0; v < mesh.at.size(); ++v) {
-    if (!on_border[v] && (in_cell[v] || v < loop.size())) continue;
+    if (!on_border[v] && (in_cell[v] || v < loop.at.size())) continue;
     number[v] = static_cast<int>(points.size());
     vertex.push_back(static_cast<int>(v));
     points.push_back(mesh.at[v]);
@@ -257,7 +274,7 @@ LoopMesh mesh_loop(const std::vector<Vector2d>& loop, const std::vector<int>& ne
   mesh.ok = ring.ok;
   for (int k = 0; k < 2; ++k) mesh.bad[k] = ring.bad[k] < 0 ? -1 : vertex[ring.bad[k]];
   for (const auto& t : ring.triangles) mesh.cut.push_back({vertex[t[0]], vertex[t[1]], vertex[t[2]]});
-  if (mesh.ok) open_ears(mesh, next);
+  if (mesh.ok) open_ears(mesh, loop);
   return mesh;
 }
 

@@ -20,9 +20,16 @@ struct LoopMesh {
   std::vector<std::array<int, 3>> cell_halves;  ///< two triangles per full cell, in the order of `cells`
 };
 
-/// Meshes the polygon whose border runs from vertex k of `loop` to vertex next[k] (simple loops: the outer one
-/// counter-clockwise, holes clockwise) on the grid lines p = i hp, q = j hq. Crossings nearer than 0.45 spacings to the
-/// border are left out; border vertices that lie on a crossing take its place.
-LoopMesh mesh_loop(const std::vector<Eigen::Vector2d>& loop, const std::vector<int>& next, double hp, double hq);
+/// The border of a polygon: it runs from vertex k to vertex next[k] (simple loops: the outer one counter-clockwise, holes
+/// clockwise; -1 where no border goes on), and the segments inside that must become sides of triangles.
+struct LoopBorder {
+  std::vector<Eigen::Vector2d> at;
+  std::vector<int> next;
+  std::vector<std::array<int, 2>> lines{};
+};
+
+/// Meshes the polygon on the grid lines p = i hp, q = j hq. Crossings nearer than 0.45 spacings to the border or a line are
+/// left out; vertices of theirs that lie on a crossing take its place. Vertices on no segment are left out.
+LoopMesh mesh_loop(const LoopBorder& border, double hp, double hq);
 
 }  // namespace garment::modeller

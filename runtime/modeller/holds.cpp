@@ -61,21 +61,6 @@ std::optional<double> level_height(const design::Attachment& a, const std::vecto
   return std::nullopt;
 }
 
-/// Border vertices that lie on a part of an edge.
-std::vector<int> vertices_on(const design::EdgePart& part, const BorderPanel& outline, const Border& border) {
-  std::vector<int> result;
-  double low = std::min(part.from, part.to), high = std::max(part.from, part.to), slack = 0.2 * outline.h;
-  auto n = static_cast<int>(border.at.size());
-  for (int k = 0; k < n; ++k) {
-    const Piece& piece = outline.outline.pieces[border.piece[k]];
-    if (piece.edge != part.edge || piece.on != part.on) continue;
-    auto inside = [&](double arc) { return arc >= low - slack && arc <= high + slack; };
-    if (inside(border.arc_from[k]) && (result.empty() || result.back() != k)) result.push_back(k);
-    if (inside(border.arc_to[k])) result.push_back(border.next[k]);
-  }
-  return result;
-}
-
 void add_pin(const design::Pin& pin, const std::vector<MeshedPanel>& panels, Holds& holds,
              model::Model& model, Findings& findings) {
   if (pin.panel < 0 || pin.panel >= static_cast<int>(panels.size()) || !pin.point.allFinite()) {
@@ -182,7 +167,6 @@ void add_clamp(const design::Clamp& clamp, const design::Garment& garment,
                const std::vector<BorderPanel>& outlines, const Borders& borders,
                const std::vector<MeshedPanel>& panels, Holds& holds, model::Model& model) {
   for (const design::EdgePart& part : clamp.parts) {
-    if (part.on == design::EdgePart::On::line) continue;  // told as not modelled
     for (int v : vertices_on(part, outlines[part.panel], borders.panels[part.panel])) {
       const Index particle = model.vertex_particle[panels[part.panel].first_vertex + v];
       holds.add(particle, HoldKind::point, model.start[particle], model);

@@ -14,6 +14,7 @@ namespace garment::modeller {
 struct BorderPanel {
   const design::Panel* panel = nullptr;
   double h = 0.01;
+  std::vector<InnerLine> lines;  ///< that the mesh follows; the outline's inner lines, in order
   Outline outline;
 };
 
@@ -38,8 +39,11 @@ struct Matching {
   std::string name;
   OriginId origin;
   std::vector<Side> sides;
-  bool merge = true;   ///< false: the particles correspond but stay apart (halves of a symmetric panel)
+  bool merge = true;   ///< false: the particles correspond but stay apart (halves of a symmetric panel, tied seams)
   bool report = true;  ///< has a SeamChain in the model
+  double lap = 0, slack = 0;  ///< m; with either the sides are tied
+  double tension = 0;         ///< of the seam's thread; design::SeamFinish
+  bool tied() const { return lap > 0 || slack > 0; }
 };
 
 /// A border between two neighbouring breaks of a piece.

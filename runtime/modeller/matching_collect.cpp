@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "runtime/modeller/matching.hpp"
+#include "runtime/modeller/pleats.hpp"
 
 namespace garment::modeller {
 namespace {
@@ -11,27 +12,51 @@ namespace {
 constexpr double kSnap = 0.2;   // of h: breaks closer than this are one
 constexpr double kTiny = 1e-7;  // m: shorter sewn lengths are none
 
-/// The break at `t` of a piece: one within `tolerance`, or a new one.
-double break_at(Piece& piece, double t, double tolerance) {
-  auto next = std::lower_bound(piece.breaks.begin(), piece.breaks.end(), t);
-  bool above = next != piece.breaks.end() && *next - t <= tolerance;
-  bool below = next != piece.breaks.begin() && t - *(next - 1) <= tolerance;
-  if (above && below) return *next - t < t - *(next - 1) ? *next : *(next - 1);
-  if (above) return *next;
-  if (below) return *(next - 1);
-  piece.breaks.insert(next, t);
-  return t;
-}
-
 bool is_valid(const design::Garment& garment, const design::EdgePart& part) {
   if (part.panel < 0 || part.panel >= static_cast<int>(garment.panels.size())) return false;
   const design::Panel& panel = garment.panels[part.panel];
-  const std::size_t n = part.on == design::EdgePart::On::hole ? panel.hole_edges.size() : panel.edges.size();
-  return part.on != design::EdgePart::On::line && part.edge >= 0 && part.edge < static_cast<int>(n) &&
+  const std::size_t n = part.on == design::EdgePart::On::hole   ? panel.hole_edges.size()
+                        : part.on == design::EdgePart::On::line ? panel.lines.size()
+                                                                : panel.edges.size();
+  return part.edge >= 0 && part.edge < static_cast<int>(n) &&
          std::isfinite(part.from) && std::isfinite(part.to);
 }
 
-/// What remains of a part of an edge as drawn once the darts are cut, in walking order.
+using Stretches = std::vector<std::pair<double, double>>;
+
+/// Stretches of an edge that its pleats take.
+Stretches taken_by_pleats(const design::EdgePart& part, const design::Panel& panel) {
+  Stretches taken;
+  if (part.on == design::EdgePart::On::outline)
+    for (const LaidPleat& pleat : laid_pleats(panel))
+      if (pleat.edge == part.edge) taken.emplace_back(pleat.from, pleat.to);
+  return taken;
+}
+
+/// What remains of a part of an edge as drawn without the stretches that are taken in, in walking order.
+std::vector<design::EdgePart> without(const design::EdgePart& part, Stretches taken) {
+  std::sort(taken.begin(), taken.end());
+  std::vector<design::EdgePart> rest;
+  double at = std::min(part.from, part.to);
+  const double end = std::max(part.from, part.to);
+  auto keep = [&](double from, double to) {
+    if (to - from <= kTiny) return;
+    rest.push_back(part);
+    rest.back().from = from;
+    rest.back().to = to;
+  };
+  for (const auto& [from, to] : taken) {
+    keep(at, std::min(from, end));
+    at = std::max(at, to);
+  }
+  keep(at, end);
+  if (part.from < part.to) return rest;
+  std::reverse(rest.begin(), rest.end());
+  for (design::EdgePart& some : rest) std::swap(some.from, some.to);
+  return rest;
+}
+
+/// What remains of a part of an edge once the darts are cut, in walking order.
 std::vector<SideSegment> resolve(const design::EdgePart& part, std::vector<BorderPanel>& panels) {
   std::vector<SideSegment> segments;
   BorderPanel& panel = panels[part.panel];
@@ -72,6 +97,10 @@ void collect_seam(const design::Garment& garment, const design::Seam& seam, cons
   Matching matching;
   matching.name = seam.name;
   matching.origin = seam.origin;
+  matching.lap = seam.finish.lap;
+  matching.slack = seam.finish.slack;
+  matching.tension = seam.finish.tension;
+  matching.merge = matching.report = !matching.tied();
   for (const design::SeamSide& declared : seam.sides) {
     Side side;
     for (std::size_t k = 0; k < declared.parts.size(); ++k) {
@@ -84,10 +113,11 @@ void collect_seam(const design::Garment& garment, const design::Seam& seam, cons
                             "name edges of declared panels"});
         return;
       }
-      for (SideSegment s : resolve(part, panels)) {
-        s.fullness = declared.fullness_of(k);
-        side.segments.push_back(s);
-      }
+      for (const design::EdgePart& sewn : without(part, taken_by_pleats(part, garment.panels[part.panel])))
+        for (SideSegment s : resolve(sewn, panels)) {
+          s.fullness = declared.fullness_of(k);
+          side.segments.push_back(s);
+        }
     }
     finish(side);
     if (side.length <= kTiny) {
@@ -219,6 +249,86 @@ void collect_leg_darts(std::vector<BorderPanel>& panels, std::vector<Matching>& 
   }
 }
 
+/// The part of the sewn edge - pleats folded, darts closed - that begins at `from` and is `length` long, or as far as the edge goes.
+std::vector<design::EdgePart> sewn_from(double from, int way, double length, const design::EdgePart& edge,
+                                        const design::Panel& panel) {
+  design::EdgePart part = edge;
+  part.from = from;
+  part.to = way > 0 ? design::edge_of(panel, edge).curve.length() : 0;
+  std::vector<design::EdgePart> result;
+  Stretches taken = taken_by_pleats(edge, panel);
+  for (const design::EdgeDart& dart : panel.darts)
+    if (dart.edge == panel.edges[edge.edge].name) taken.emplace_back(dart.at - dart.width / 2, dart.at + dart.width / 2);
+  for (design::EdgePart some : without(part, taken)) {
+    const double has = std::abs(some.to - some.from);
+    if (has > length) some.to = some.from + way * length;
+    if (length > kTiny) result.push_back(some);
+    length -= has;
+  }
+  return result;
+}
+
+Side side_of(const std::vector<design::EdgePart>& parts, std::vector<BorderPanel>& panels) {
+  Side side;
+  for (const design::EdgePart& part : parts)
+    for (const SideSegment& s : resolve(part, panels)) side.segments.push_back(s);
+  finish(side);
+  return side;
+}
+
+/// What holds pleats: their layers along the edge, and the lines that are stitched down.
+void collect_pleats(std::vector<BorderPanel>& panels, std::vector<Matching>& result) {
+  for (std::size_t p = 0; p < panels.size(); ++p) {
+    const design::Panel& panel = *panels[p].panel;
+    const std::vector<LaidPleat> pleats = laid_pleats(panel);
+    for (std::size_t k = 0; k < pleats.size(); ++k) {
+      const LaidPleat& pleat = pleats[k];
+      Matching matching;
+      matching.name = panel.name + "." + panel.pleats[pleat.pleat].name;
+      matching.origin = panel.pleats[pleat.pleat].origin;
+      matching.report = false;
+      const design::EdgePart edge{static_cast<int>(p), pleat.edge, 0, 0};
+      auto part = [&](double from, double to) {
+        design::EdgePart some = edge;
+        some.from = from;
+        some.to = to;
+        return some;
+      };
+      for (const LaidPleat::Layers& layers : pleat.layers) {
+        const std::vector<design::EdgePart> beside = sewn_from(layers.beside, layers.way, pleat.depth, edge, panel);
+        double reach = 0;
+        for (const design::EdgePart& some : beside) reach += std::abs(some.to - some.from);
+        matching.sides.clear();
+        if (reach > kTiny) matching.sides.push_back(side_of(beside, panels));
+        else reach = pleat.depth;  // at the edge's end: the two layers of the pleat alone
+        for (double start : layers.start)
+          matching.sides.push_back(side_of({part(start, start + (layers.fold > start ? reach : -reach))}, panels));
+        result.push_back(matching);
+        if (reach >= pleat.depth - kTiny || matching.sides.size() < 3) continue;
+        matching.sides.clear();  // what reaches beyond the edge's end
+        for (double start : layers.start)
+          matching.sides.push_back(side_of({part(start + (layers.fold > start ? reach : -reach), layers.fold)}, panels));
+        result.push_back(matching);
+      }
+      if (panel.pleats[pleat.pleat].length <= 0) continue;
+      matching.sides.clear();
+      for (std::size_t l = 0; l < panels[p].lines.size(); ++l) {
+        const InnerLine& line = panels[p].lines[l];
+        if (line.pleat != static_cast<int>(k) || (!same_place(line.at, pleat.from) && !same_place(line.at, pleat.to))) continue;
+        const std::size_t piece = panels[p].outline.begin_of(panels[p].outline.n_closed + l);
+        Piece& drawn = panels[p].outline.pieces[piece];
+        const double end = std::min(panel.pleats[pleat.pleat].length, drawn.length());
+        const double stop = break_at(drawn, end, kSnap * panels[p].h);
+        Side side;
+        side.segments.push_back({static_cast<int>(p), static_cast<int>(piece), 0, stop, 0, 1});
+        finish(side);
+        matching.sides.push_back(std::move(side));
+      }
+      if (matching.sides.size() == 2) result.push_back(matching);
+    }
+  }
+}
+
 void collect_halves(std::vector<BorderPanel>& panels, std::vector<Matching>& result) {
   for (std::size_t p = 0; p < panels.size(); ++p) {
     const Outline& outline = panels[p].outline;
@@ -250,6 +360,7 @@ std::vector<Matching> collect_matchings(const design::Garment& garment, std::vec
   collect_darts(panels, result);
   collect_leg_darts(panels, result);
   collect_inside_darts(panels, result);
+  collect_pleats(panels, result);
   collect_halves(panels, result);
   return result;
 }

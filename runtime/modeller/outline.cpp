@@ -14,6 +14,7 @@ namespace {
 
 /// Ends that lie closer than this meet, m: below what any pattern file resolves, far above rounding.
 constexpr double kMeet = 1e-5;
+constexpr double kJoin = 0.2;  // of h: lines join the border at a particle this near
 
 double cross(const Point2& a, const Point2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
@@ -190,6 +191,97 @@ bool check_lens(const design::Panel& panel, const design::InsideDart& dart, Find
   return false;
 }
 
+void append_lines(const std::vector<InnerLine>& lines, Outline& outline) {
+  for (const InnerLine& line : lines) {
+    Piece piece;
+    piece.curve = line.curve;
+    piece.edge = line.line;
+    piece.on = design::EdgePart::On::line;
+    piece.to = line.curve.length();
+    outline.loops.push_back(outline.pieces.size());
+    outline.pieces.push_back(std::move(piece));
+  }
+}
+
+/// A piece as a polyline, with the position of every point.
+struct Trace {
+  std::vector<Point2> at;
+  std::vector<double> t;
+};
+
+Trace trace_of(const Piece& piece, double h) {
+  Trace trace;
+  const double length = piece.length();
+  const int n = piece.straight() ? 1 : std::max(8, static_cast<int>(std::ceil(length / (h / 20))));
+  for (int i = 0; i <= n; ++i) {
+    trace.t.push_back(length * i / n);
+    trace.at.push_back(piece.at(trace.t.back()));
+  }
+  return trace;
+}
+
+/// Nearest place of a trace to `p`: distance and position.
+std::pair<double, double> nearest(const Trace& trace, const Point2& p) {
+  double best = 1e300, t = 0;
+  for (std::size_t k = 0; k + 1 < trace.at.size(); ++k) {
+    const Point2 way = trace.at[k + 1] - trace.at[k];
+    const double share = std::clamp((p - trace.at[k]).dot(way) / std::max(1e-300, way.squaredNorm()), 0.0, 1.0);
+    const double distance = (trace.at[k] + share * way - p).norm();
+    if (distance >= best) continue;
+    best = distance;
+    t = trace.t[k] + share * (trace.t[k + 1] - trace.t[k]);
+  }
+  return {best, t};
+}
+
+/// Where two traces cross: positions on both.
+std::vector<std::pair<double, double>> crossings(const Trace& a, const Trace& b) {
+  std::vector<std::pair<double, double>> result;
+  for (std::size_t i = 0; i + 1 < a.at.size(); ++i)
+    for (std::size_t j = 0; j + 1 < b.at.size(); ++j) {
+      const Point2 u = a.at[i + 1] - a.at[i], v = b.at[j + 1] - b.at[j], off = b.at[j] - a.at[i];
+      const double det = cross(u, v);
+      if (det == 0) continue;
+      const double s = cross(off, v) / det, r = cross(off, u) / det;
+      if (s < 0 || s >= 1 || r < 0 || r >= 1) continue;
+      result.emplace_back(a.t[i] + s * (a.t[i + 1] - a.t[i]), b.t[j] + r * (b.t[j + 1] - b.t[j]));
+    }
+  return result;
+}
+
+/// Breaks both pieces at a place that they share.
+void join(std::size_t a, double t_a, std::size_t b, double t_b, double tolerance, Outline& outline) {
+  const double at_a = break_at(outline.pieces[a], t_a, tolerance), at_b = break_at(outline.pieces[b], t_b, tolerance);
+  outline.joints.push_back({{a, b}, {at_a, at_b}});
+}
+
+/// Finds where the lines begin and end on the border or on other lines, and where they cross.
+void join_lines(double h, Outline& outline) {
+  const std::size_t first = outline.n_closed < outline.loops.size() ? outline.loops[outline.n_closed] : outline.pieces.size();
+  if (first == outline.pieces.size()) return;
+  const double near = 0.02 * h, snap = kJoin * h;
+  std::vector<Trace> traces;
+  for (const Piece& piece : outline.pieces) traces.push_back(trace_of(piece, h));
+  for (std::size_t line = first; line < outline.pieces.size(); ++line) {
+    const double length = outline.pieces[line].length();
+    bool ends[2] = {false, false};  // joined
+    for (std::size_t other = 0; other < outline.pieces.size(); ++other) {
+      if (other == line) continue;
+      for (int e = 0; e < 2; ++e) {  // ends that lie on the other one
+        const Point2 end = e == 0 ? traces[line].at.front() : traces[line].at.back();
+        const auto [distance, t] = nearest(traces[other], end);
+        if (ends[e] || distance > near) continue;
+        join(other, t, line, e == 0 ? 0 : length, snap, outline);
+        ends[e] = true;
+      }
+      if (other < first || other > line) continue;
+      for (const auto& [t_line, t_other] : crossings(traces[line], traces[other]))
+        if (t_line > snap && t_line < length - snap && t_other > snap && t_other < outline.pieces[other].length() - snap)
+          join(other, t_other, line, t_line, snap, outline);
+    }
+  }
+}
+
 bool mirrors(const Piece& a, const Piece& b, double fold_x) {
   auto mirror = [&](const Point2& p) { return Point2(2 * fold_x - p.x(), p.y()); };
   if (std::abs(a.length() - b.length()) > kMeet) return false;
@@ -274,9 +366,27 @@ double Piece::bulge(double t0, double t1) const {
   });
 }
 
+double break_at(Piece& piece, double t, double tolerance) {
+  auto next = std::lower_bound(piece.breaks.begin(), piece.breaks.end(), t);
+  bool above = next != piece.breaks.end() && *next - t <= tolerance;
+  bool below = next != piece.breaks.begin() && t - *(next - 1) <= tolerance;
+  if (above && below) return *next - t < t - *(next - 1) ? *next : *(next - 1);
+  if (above) return *next;
+  if (below) return *(next - 1);
+  piece.breaks.insert(next, t);
+  return t;
+}
+
+std::size_t Outline::loop_of(std::size_t k) const {
+  std::size_t l = 0;
+  while (l + 1 < loops.size() && loops[l + 1] <= k) ++l;
+  return l;
+}
+
 Point2 corner(const Outline& outline, std::size_t k) { return outline.pieces[k].at(0); }
 
-std::optional<Outline> cut_outline(const design::Panel& panel, double h, Findings& findings) {
+std::optional<Outline> cut_outline(const design::Panel& panel, double h, const std::vector<InnerLine>& lines,
+                                   Findings& findings) {
   if (!check_loop(panel, findings)) return std::nullopt;
   double area = 0;
   for (const design::Edge& edge : panel.edges) area += edge.curve.area_term();
@@ -315,8 +425,11 @@ std::optional<Outline> cut_outline(const design::Panel& panel, double h, Finding
   }
   for (std::size_t l = 0; l < outline.loops.size(); ++l)
     if (!check_crossing(panel, outline, l, h, findings)) return std::nullopt;
+  outline.n_closed = outline.loops.size();
+  append_lines(lines, outline);
   if (panel.fold_x && outline.loops.size() == 1) find_half(outline, *panel.fold_x);
   for (Piece& piece : outline.pieces) piece.breaks = {0, piece.length()};
+  join_lines(h, outline);
   return outline;
 }
 

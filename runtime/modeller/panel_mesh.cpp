@@ -8,6 +8,7 @@
 #include "runtime/base/number.hpp"
 #include "runtime/design/fineness.hpp"
 #include "runtime/modeller/crossing.hpp"
+#include "runtime/modeller/slits.hpp"
 
 namespace garment::modeller {
 namespace {
@@ -94,9 +95,8 @@ std::optional<PanelMesh> mesh_panel(const BorderPanel& panel, const GridFrame& f
     report_coarse(panel, "its border holds no three particles", fits, findings);
     return std::nullopt;
   }
-  for (std::size_t l = 0; l < border.loops.size(); ++l) {
-    const auto begin = border.at.begin() + border.loops[l];
-    const auto end = l + 1 < border.loops.size() ? border.at.begin() + border.loops[l + 1] : border.at.end();
+  for (std::size_t l = 0; l < border.n_closed; ++l) {
+    const auto begin = border.at.begin() + border.loops[l], end = border.at.begin() + border.end_of(l);
     const std::optional<Crossing> crossing = find_crossing({begin, end});
     if (!crossing) continue;
     report_coarse(panel,
@@ -106,21 +106,23 @@ std::optional<PanelMesh> mesh_panel(const BorderPanel& panel, const GridFrame& f
                   0.5 * panel.h, findings);
     return std::nullopt;
   }
-  std::vector<Vector2d> loop;
+  LoopBorder loop;
   std::size_t n_right = border.half > 0 ? border.half + 1 : border.at.size(), n_fold = 0;
-  for (std::size_t k = 0; k < n_right; ++k) loop.push_back(frame.to_grid(border.at[k]));
+  for (std::size_t k = 0; k < n_right; ++k) loop.at.push_back(frame.to_grid(border.at[k]));
   if (border.half > 0) {
-    std::vector<Vector2d> fold = fold_nodes(loop, frame);
+    std::vector<Vector2d> fold = fold_nodes(loop.at, frame);
     n_fold = fold.size();
-    loop.insert(loop.end(), fold.begin(), fold.end());
-  }
-  std::vector<int> next = border.next;
-  if (border.half > 0) {
-    next.resize(loop.size());
-    for (std::size_t k = 0; k < loop.size(); ++k) next[k] = static_cast<int>((k + 1) % loop.size());
+    loop.at.insert(loop.at.end(), fold.begin(), fold.end());
+    for (std::size_t k = 0; k < loop.at.size(); ++k) loop.next.push_back(static_cast<int>((k + 1) % loop.at.size()));
+  } else {
+    loop.next = border.next;
+    for (std::size_t k = border.n_outline(); k < border.at.size(); ++k) {
+      loop.next[k] = -1;
+      if (border.next[k] >= 0) loop.lines.push_back({border.same[k], border.same[border.next[k]]});
+    }
   }
   LoopMesh mesh;
-  if (loop.size() >= 3) mesh = mesh_loop(loop, next, frame.hp, frame.hq);
+  if (loop.at.size() >= 3) mesh = mesh_loop(loop, frame.hp, frame.hq);
   if (!mesh.ok) {
     report_coarse(panel, "its border runs too close to itself", 0.5 * panel.h, findings);
     return std::nullopt;
@@ -141,6 +143,7 @@ std::optional<PanelMesh> mesh_panel(const BorderPanel& panel, const GridFrame& f
                             c[(frame.quarter + 3) % 4]});
   result.cut = std::move(mesh.cut);
   result.cell_halves = std::move(mesh.cell_halves);
+  open_slits(panel, border, result);
   return result;
 }
 

@@ -6,6 +6,38 @@ namespace garment::modeller {
 
 using model::Index;
 
+namespace {
+
+/// The vertices of the side opposite corner k, the smaller first.
+std::pair<Index, Index> vertices_of(const Sheet& sheet, Index triangle, int k) {
+  return std::minmax({sheet.vertex[triangle][(k + 1) % 3], sheet.vertex[triangle][(k + 2) % 3]});
+}
+
+/// The closed fan that triangle `start` belongs to; empty where it runs into a border.
+std::vector<FanTriangle> fan_from(const Sheet& sheet, Index particle, Index start, int centre) {
+  std::vector<FanTriangle> fan;
+  auto corner_of = [&](Index t, Index p) {
+    return sheet.particle[t][0] == p ? 0 : sheet.particle[t][1] == p ? 1 : 2;
+  };
+  Index t = start;
+  int here = (centre + 1) % 3, ahead = (centre + 2) % 3;
+  for (Index count = sheet.first[particle]; count < sheet.first[particle + 1]; ++count) {
+    fan.push_back({t, centre, here, ahead});
+    Index beyond = sheet.next[t][here];  // across the side centre-ahead, which lies opposite `here`
+    if (beyond < 0) return {};
+    Index joint = sheet.particle[t][ahead];
+    if (beyond == start)
+      return joint == sheet.particle[start][fan.front().here] ? fan : std::vector<FanTriangle>{};
+    t = beyond;
+    centre = corner_of(t, particle);
+    here = corner_of(t, joint);
+    ahead = 3 - centre - here;
+  }
+  return {};
+}
+
+}  // namespace
+
 Sheet make_sheet(const model::Model& model) {
   Sheet sheet;
   std::size_t n = model.n_triangles();
@@ -40,39 +72,25 @@ Sheet make_sheet(const model::Model& model) {
   for (std::size_t i = 0; i < sides.size();) {
     std::size_t j = i + 1;
     while (j < sides.size() && sides[j].low == sides[i].low && sides[j].high == sides[i].high) ++j;
-    if (j - i == 2) {
-      sheet.next[sides[i].triangle][sides[i].k] = sides[i + 1].triangle;
-      sheet.next[sides[i + 1].triangle][sides[i + 1].k] = sides[i].triangle;
-    }
+    auto link = [&](std::size_t a, std::size_t b) {
+      sheet.next[sides[a].triangle][sides[a].k] = sides[b].triangle;
+      sheet.next[sides[b].triangle][sides[b].k] = sides[a].triangle;
+    };
+    if (j - i == 2) link(i, i + 1);
+    if (j - i > 2)  // a panel is sewn on along a line of another: that one goes on beneath the seam
+      for (std::size_t a = i; a < j; ++a)
+        for (std::size_t b = a + 1; b < j; ++b)
+          if (vertices_of(sheet, sides[a].triangle, sides[a].k) == vertices_of(sheet, sides[b].triangle, sides[b].k)) link(a, b);
     i = j;
   }
   return sheet;
 }
 
 std::vector<FanTriangle> closed_fan(const Sheet& sheet, Index particle) {
-  std::vector<FanTriangle> fan;
-  Index begin = sheet.first[particle], end = sheet.first[particle + 1];
-  if (begin == end) return fan;
-  auto corner_of = [&](Index t, Index p) {
-    return sheet.particle[t][0] == p ? 0 : sheet.particle[t][1] == p ? 1 : 2;
-  };
-  auto [start, centre] = sheet.corner[begin];
-  Index t = start;
-  int here = (centre + 1) % 3, ahead = (centre + 2) % 3;
-  for (Index count = begin; count < end; ++count) {
-    fan.push_back({t, centre, here, ahead});
-    Index beyond = sheet.next[t][here];  // across the side centre-ahead, which lies opposite `here`
-    if (beyond < 0) return {};
-    Index joint = sheet.particle[t][ahead];
-    if (beyond == start && count + 1 == end) {
-      const FanTriangle& first = fan.front();
-      return joint == sheet.particle[start][first.here] ? fan : std::vector<FanTriangle>{};
-    }
-    t = beyond;
-    centre = corner_of(t, particle);
-    here = corner_of(t, joint);
-    ahead = 3 - centre - here;
-    if (t == start) return {};  // closed before every triangle was met
+  for (Index k = sheet.first[particle]; k < sheet.first[particle + 1]; ++k) {
+    const auto [triangle, centre] = sheet.corner[k];
+    std::vector<FanTriangle> fan = fan_from(sheet, particle, triangle, centre);
+    if (!fan.empty()) return fan;
   }
   return {};
 }

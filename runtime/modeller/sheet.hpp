@@ -12,7 +12,7 @@ struct Sheet {
   std::vector<model::Indices<3>> vertex;  ///< of triangle t, counter-clockwise in its panel
   std::vector<model::Indices<3>> particle;
   std::vector<std::array<model::Index, 3>> next;  ///< triangle beyond the side opposite corner k; -1 on a
-                                                  ///< border and where more than two triangles meet
+                                                  ///< border; where more than two meet, of those of one panel
   std::vector<model::Index> first;                  ///< CSR over particles [n + 1] into `corner`
   std::vector<std::array<model::Index, 2>> corner;  ///< (triangle, corner) at each particle
 
@@ -21,7 +21,8 @@ struct Sheet {
 
 Sheet make_sheet(const model::Model& model);
 
-/// Triangles round a particle in order, closed; empty on free borders and where sheets branch.
+/// Triangles round a particle in order, closed: of several sheets that meet there the first that goes all round; empty on free
+/// borders and where none does.
 /// Entry k: triangle, and its corners (centre, this ring particle, next ring particle) as corner numbers.
 struct FanTriangle {
   model::Index triangle;
