@@ -144,14 +144,24 @@ class SeamMaker {
     take_image(expr.children[0], image);
   }
 
-  /// Parts along the seam. The first side runs counter-clockwise, the others against it.
+  /// A line inside a panel has cloth on both sides: what is sewn onto it lies over it.
+  bool on_a_line() const {
+    for (const SeamSideDraft& side : sides_)
+      for (const EdgeSpan& span : side.edge.spans)
+        for (const design::EdgePart& part : span.parts)
+          if (part.on == design::EdgePart::On::line) return true;
+    return false;
+  }
+
+  /// Parts along the seam. The first side runs counter-clockwise, the others against it; where a line is sewn to, all run
+  /// counter-clockwise, and the line as drawn.
   void add_side(SeamInfo& info, std::size_t k) {
     const SeamSideDraft& draft = sides_[k];
     info.sides.push_back(draft.edge);
     info.spans.push_back(draft.expr->span);
     design::SeamSide side;
     side.origin = program_.origin(draft.expr->span);
-    for (const SidePiece& piece : pieces_along(program_, draft, (k > 0) != draft.reversed))
+    for (const SidePiece& piece : pieces_along(program_, draft, (k > 0 && !on_a_line()) != draft.reversed))
       for (const design::EdgePart& part : piece.span.parts) {
         side.parts.push_back(part);
         if (!draft.parts.empty()) side.fullness.push_back(piece.fullness);

@@ -100,12 +100,17 @@ std::string seam(const design::Garment& garment, const Names& names, std::size_t
   if (!sides.empty() && !sides[0].empty() && !with_loop(garment, sides[0][0].part))
     for (Links& links : sides) turn_round(links);
 
+  bool on_a_line = false;
+  for (const Links& links : sides)
+    for (const Link& link : links) on_a_line = on_a_line || link.part.on == EdgePart::On::line;
+
   std::string text = fmt::format("seam {}:", names.seams[index]);
   for (std::size_t i = 0; i < sides.size(); ++i) {
     if (sides[i].empty()) continue;
     // Later sides are written with their loops too, and the seam runs them from the end to the start.
-    bool reversed = i > 0 && with_loop(garment, sides[i][0].part);
-    if (i > 0 && !reversed) turn_round(sides[i]);
+    // Where a line is sewn to, it runs them from start to end.
+    const bool with = with_loop(garment, sides[i][0].part), reversed = i > 0 && with != on_a_line;
+    if (i > 0 && !with) turn_round(sides[i]);
     text += fmt::format("{} {}", i > 0 ? " to" : "", chain(garment, names, sides[i]));
     const std::string parts = part_relations(sides[i]);
     if (!parts.empty())

@@ -1,5 +1,9 @@
 #include "interpreter/session/drape_answers.hpp"
 
+#include <algorithm>
+#include <array>
+
+#include "runtime/model/flat_index.hpp"
 #include "runtime/results/shadow.hpp"
 
 namespace garment::session {
@@ -84,21 +88,33 @@ std::optional<double> DrapeAnswers::penetrations() const {
   return static_cast<double>(report_.self_intersections + report_.body_intersections + report_.inside_body);
 }
 
+/// A pin holds the particle next to its point: that is where it is.
 std::optional<Eigen::Vector3d> DrapeAnswers::position(int pin) const {
   if (pin < 0 || pin >= static_cast<int>(garment_.pins.size())) return std::nullopt;
-  return position(garment_.pins[pin].panel, garment_.pins[pin].point);
-}
-
-std::optional<Eigen::Vector3d> DrapeAnswers::position(int panel, const design::Point2& point) const {
-  if (panel < 0 || panel >= static_cast<int>(model_.panels.size())) return std::nullopt;
-  const model::PanelRange& range = model_.panels[panel];
+  const design::Pin& held = garment_.pins[pin];
+  if (held.panel < 0 || held.panel >= static_cast<int>(model_.panels.size())) return std::nullopt;
+  const model::PanelRange& range = model_.panels[held.panel];
   model::Index best = -1;
   for (model::Index v = range.first_vertex; v < range.first_vertex + range.n_vertices; ++v)
     if (best < 0 ||
-        (model_.vertex_uv[v] - point).squaredNorm() < (model_.vertex_uv[best] - point).squaredNorm())
+        (model_.vertex_uv[v] - held.point).squaredNorm() < (model_.vertex_uv[best] - held.point).squaredNorm())
       best = v;
   if (best < 0) return std::nullopt;
   return state_.position[model_.vertex_particle[best]];
+}
+
+/// On the triangle that holds the point; beyond the border at the border.
+std::optional<Eigen::Vector3d> DrapeAnswers::position(int panel, const design::Point2& point) const {
+  if (panel < 0 || panel >= static_cast<int>(model_.panels.size())) return std::nullopt;
+  std::array<double, 3> weights{};
+  const model::Index t = model::FlatIndex(model_, panel).locate(point, weights);
+  if (t < 0) return std::nullopt;
+  double sum = 0;
+  for (double& w : weights) sum += w = std::max(w, 0.0);
+  const model::Indices<3> corner = model_.corners(static_cast<std::size_t>(t));
+  Eigen::Vector3d at = Eigen::Vector3d::Zero();
+  for (int k = 0; k < 3; ++k) at += weights[k] / sum * state_.position[corner[k]];
+  return at;
 }
 
 }  // namespace garment::session

@@ -7,6 +7,7 @@
 
 #include "runtime/base/parallel.hpp"
 #include "runtime/modeller/chart.hpp"
+#include "runtime/modeller/folding.hpp"
 #include "runtime/modeller/layered_cloth.hpp"
 
 namespace garment::modeller {
@@ -95,6 +96,7 @@ struct Fit {
   std::vector<std::pair<Index, Matrix3d>> plate;
   Stiffened seam{};
   Vector2d along{0, 0};  // the seam in the chart
+  std::vector<model::Vector3d> rest{};  // places at rest, where they are folded
 };
 
 /// Adds the plate matrices of the panels in the chart's fan: the area mean over each panel's triangles.
@@ -167,7 +169,7 @@ void stiffen(const Stiffened& seam, const Vector2d& along, double area, Matrix3d
 }
 
 std::vector<Fit> make_fits(const Sheet& sheet, const std::vector<MeshedPanel>& panels,
-                           const ClothFields& fields, const model::Model& model,
+                           const ClothFields& fields, const Folds& folds, const model::Model& model,
                            const std::vector<Index>& at, const std::vector<char>& joined) {
   const std::vector<Stiffened> seams = stiffened_seams(fields.garment(), model);
   std::vector<Fit> fits(at.size());
@@ -183,6 +185,7 @@ std::vector<Fit> make_fits(const Sheet& sheet, const std::vector<MeshedPanel>& p
       add_plates(sheet, panels, fields, model, *chart, fits[k]);
       fits[k].seam = seams[at[k]];
       fits[k].along = seam_in(*chart, fits[k].seam);
+      fits[k].rest = folds.rest_places(*chart, at[k], model);
     }
   });
   return fits;
@@ -267,9 +270,16 @@ void add_grid_bending(const std::vector<MeshedPanel>& panels, const ClothFields&
   }
 }
 
+/// `rest` holds the places of the particles at rest; empty where they are flat.
 void add_stencil(const std::vector<Index>& particles, const std::vector<Eigen::Vector3d>& weights,
-                 double area, const Matrix3d& rigidity, model::Model& model) {
+                 const std::vector<model::Vector3d>& rest, double area, const Matrix3d& rigidity, model::Model& model) {
   const Matrix3d& d = rigidity;
+  if (!rest.empty()) {
+    if (model.fold_begin.empty()) model.fold_begin.push_back(0);
+    model.fold_fit.push_back(static_cast<Index>(model.fit_area.size()));
+    model.fold_place.insert(model.fold_place.end(), rest.begin(), rest.end());
+    model.fold_begin.push_back(static_cast<Index>(model.fold_place.size()));
+  }
   model.fit_particle.insert(model.fit_particle.end(), particles.begin(), particles.end());
   model.fit_weight.insert(model.fit_weight.end(), weights.begin(), weights.end());
   model.fit_begin.push_back(static_cast<Index>(model.fit_particle.size()));
@@ -290,15 +300,16 @@ void add_fit(const Fit& fit, const Areas& areas, model::Model& model) {
   sum /= area;
   Matrix3d sewn = sum;
   stiffen(fit.seam, fit.along, area, sewn);
-  add_stencil(fit.curvature.particle, fit.curvature.weight, area, sewn, model);
+  add_stencil(fit.curvature.particle, fit.curvature.weight, fit.rest, area, sewn, model);
   const Matrix3d stiff = Matrix3d::Identity() * (kResidualShare * (sum(0, 0) + sum(1, 1)) / 2);
   for (const auto& group : fit.curvature.residual)
-    add_stencil(fit.curvature.particle, group, area, stiff, model);
+    add_stencil(fit.curvature.particle, group, fit.rest, area, stiff, model);
 }
 
 }  // namespace
 
-void add_bending(const std::vector<MeshedPanel>& panels, const ClothFields& fields, model::Model& model) {
+void add_bending(const std::vector<MeshedPanel>& panels, const ClothFields& fields, const Folds& folds,
+                 model::Model& model) {
   Sheet sheet = make_sheet(model);
   std::vector<GridStencil> grid = grid_stencils(model);
   std::vector<char> has_stencil(model.n_particles(), 0);
@@ -311,7 +322,7 @@ void add_bending(const std::vector<MeshedPanel>& panels, const ClothFields& fiel
   std::vector<char> joined(model.n_particles(), 0);
   std::vector<int> vertices(model.n_particles(), 0);
   for (Index i : model.vertex_particle) joined[i] = ++vertices[i] > 1;
-  std::vector<Fit> fits = make_fits(sheet, panels, fields, model, others, joined);
+  std::vector<Fit> fits = make_fits(sheet, panels, fields, folds, model, others, joined);
   for (std::size_t k = 0; k < others.size(); ++k) has_stencil[others[k]] = !fits[k].plate.empty();
   std::vector<Areas> areas(model.n_particles());
   for (std::size_t p = 0; p < panels.size(); ++p)

@@ -7,10 +7,12 @@
 namespace garment::modeller {
 
 class ClothFields;
+class Folds;
 
-/// Fills bend_*, fit_* and cell_twist. Warp, weft and twist weights each add up to the area of the garment,
+/// Fills bend_*, fit_*, fold_* and cell_twist. Warp, weft and twist weights each add up to the area of the garment,
 /// so that a uniform curvature has the energy A/2 kappa . D kappa on any outline of one cloth. With
 /// rigidities B_1 (warp), B_2 (weft), Ct, and kappa in the cloth's axes, D = diag(B_1, B_2, 4 Ct).
-void add_bending(const std::vector<MeshedPanel>& panels, const ClothFields& fields, model::Model& model);
+void add_bending(const std::vector<MeshedPanel>& panels, const ClothFields& fields, const Folds& folds,
+                 model::Model& model);
 
 }  // namespace garment::modeller

@@ -50,18 +50,6 @@ std::vector<std::vector<design::EdgePart>> by_panel(const std::vector<design::Ed
   return sorted;
 }
 
-/// The panel within its outer border.
-design::RegionShape outline_of(const design::Panel& panel) {
-  constexpr double kChordError = 1e-4;  // m
-  design::RegionShape shape;
-  shape.kind = design::RegionShape::Kind::polygon;
-  for (const design::Edge& edge : panel.edges) {
-    const std::vector<Point2> points = edge.curve.polyline(kChordError);
-    if (!points.empty()) shape.points.insert(shape.points.end(), points.begin(), points.end() - 1);
-  }
-  return shape;
-}
-
 constexpr double kLeastRest = 0.25;  // length at rest over length as cut
 
 }  // namespace
@@ -93,20 +81,19 @@ ClothFields::ClothFields(const design::Garment& garment)
     for (const std::vector<design::EdgePart>& parts : by_panel(hem.parts))
       add_along(parts, hem.turn, garment.panels[parts[0].panel].fabric, hem.to);
   for (const design::Seam& seam : garment.seams) add_allowances(seam);
-  for (const design::Panel& panel : garment.panels) outlines_.emplace_back(panel, outline_of(panel));
+  for (const design::Panel& panel : garment.panels) outlines_.emplace_back(panel, design::outline_shape(panel));
 }
 
 /// What `patch` says holds in the region, on all its panels or on one; without a region on the whole panel.
 void ClothFields::add(int region, int only_panel, const Patch& patch) {
-  const design::Garment& garment = garment_;
   if (patch.alike(Patch{})) return;
   auto add_to = [&](int panel, const design::RegionShape& shape) {
-    if (panel < 0 || panel >= static_cast<int>(garment.panels.size())) return;
+    if (panel < 0 || panel >= static_cast<int>(garment_.panels.size())) return;
     const auto p = static_cast<std::size_t>(panel);
-    panels_[p].push_back({design::RegionTest(garment.panels[p], shape), patch, region});
+    panels_[p].push_back({design::RegionTest(garment_.panels[p], shape), patch, region});
   };
-  if (region < 0 || region >= static_cast<int>(garment.regions.size())) return add_to(only_panel, design::RegionShape{});
-  for (const design::RegionPart& part : garment.regions[region].parts)
+  if (region < 0 || region >= static_cast<int>(garment_.regions.size())) return add_to(only_panel, design::RegionShape{});
+  for (const design::RegionPart& part : garment_.regions[region].parts)
     if (only_panel < 0 || part.panel == only_panel) add_to(part.panel, part.shape);
 }
 
@@ -187,8 +174,8 @@ std::vector<Patch> ClothFields::around(std::size_t panel, const Point2& p, doubl
   return patches;
 }
 
-Findings ClothFields::unreached(const design::Garment& garment, const std::vector<MeshedPanel>& panels) const {
-  std::vector<char> known(garment.regions.size(), 0), reached(garment.regions.size(), 0);
+Findings ClothFields::unreached(const std::vector<MeshedPanel>& panels) const {
+  std::vector<char> known(garment_.regions.size(), 0), reached(garment_.regions.size(), 0);
   for (std::size_t p = 0; p < panels.size(); ++p)
     for (const Entry& entry : panels_[p]) {
       if (entry.region < 0) continue;
@@ -203,8 +190,8 @@ Findings ClothFields::unreached(const design::Garment& garment, const std::vecto
       findings.push_back(
           {"G1150",
            Severity::warning,
-           fmt::format("region `{}` is finer than the grid: no particle lies in it", garment.regions[r].name),
-           {{garment.regions[r].origin, ""}},
+           fmt::format("region `{}` is finer than the grid: no particle lies in it", garment_.regions[r].name),
+           {{garment_.regions[r].origin, ""}},
            "give the panel a finer resolution, or make the region larger"});
   return findings;
 }

@@ -40,7 +40,7 @@ class ClothFields {
   std::vector<Patch> around(std::size_t panel, const design::Point2& p, double width) const;
 
   /// Regions with something to say in which no particle of the meshed panels lies: a warning for each (G1150).
-  Findings unreached(const design::Garment& garment, const std::vector<MeshedPanel>& panels) const;
+  Findings unreached(const std::vector<MeshedPanel>& panels) const;
 
  private:
   struct Entry {

@@ -11,9 +11,13 @@
 #include "runtime/modeller/bending.hpp"
 #include "runtime/modeller/closures.hpp"
 #include "runtime/modeller/cloth_fields.hpp"
+#include "runtime/modeller/folding.hpp"
 #include "runtime/modeller/holds.hpp"
+#include "runtime/modeller/inner_lines.hpp"
+#include "runtime/modeller/pads.hpp"
 #include "runtime/modeller/placement.hpp"
 #include "runtime/modeller/pressing.hpp"
+#include "runtime/modeller/region_values.hpp"
 #include "runtime/modeller/sewing.hpp"
 #include "runtime/modeller/twins.hpp"
 #include "runtime/modeller/unmodelled.hpp"
@@ -114,7 +118,8 @@ std::vector<BorderPanel> cut_outlines(const design::Garment& garment, const Mode
   for (std::size_t p = 0; p < panels.size(); ++p) {
     panels[p].panel = &garment.panels[p];
     panels[p].h = spacing_of(garment.panels[p], options);
-    if (std::optional<Outline> outline = cut_outline(garment.panels[p], panels[p].h, findings))
+    panels[p].lines = lines_to_follow(garment, static_cast<int>(p), panels[p].h);
+    if (std::optional<Outline> outline = cut_outline(garment.panels[p], panels[p].h, panels[p].lines, findings))
       panels[p].outline = std::move(*outline);
   }
   return panels;
@@ -177,21 +182,25 @@ ModelResult build_model(const design::Garment& garment, const std::vector<body::
     areas.push_back(outlines[p].outline.area);
     n_vertices += panels[p].mesh.at.size();
   }
-  std::vector<Index> particle = sew(matchings, matched, borders, first_vertex, n_vertices, model);
+  std::vector<SewnSides> sides;
+  std::vector<Index> particle = sew(matchings, matched, borders, first_vertex, n_vertices, model, sides);
   part_twins(panels, particle);
   const ClothFields fields(garment);
   if (options.coarsen <= 1)
-    for (Finding& finding : fields.unreached(garment, panels)) findings.push_back(std::move(finding));
+    for (Finding& finding : fields.unreached(panels)) findings.push_back(std::move(finding));
   if (!add_particles(garment, panels, areas, particle, fields, model, findings)) return result;
   add_elements(garment, panels, fields, model);
-  add_bending(panels, fields, model);
+  if (options.coarsen <= 1) add_region_values(panels, fields, model);
+  add_bending(panels, fields, Folds(fold_chains(garment, outlines, borders, panels, model), model.n_particles()), model);
   Findings unreached;
-  add_creases(garment, panels, model, unreached);
+  add_creases(garment, panels, outlines, model, unreached);
+  add_pads(garment, panels, model, unreached);
   if (options.coarsen <= 1) findings.insert(findings.end(), unreached.begin(), unreached.end());
   // What a tack goes to depends on where the panels lie: the model must not depend on whether they were dressed for it.
   const bool dress = options.dress || !garment.tacks.empty();
   if (!place_panels(garment, bodies, model, findings, dress)) return result;
   add_closures(garment, model, findings);
+  add_seam_ties(sides, model, findings);
   add_holds(garment, bodies, outlines, borders, panels, model, findings);
   if (!has_errors(findings)) result.model = std::move(model);
   return result;

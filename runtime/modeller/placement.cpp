@@ -10,7 +10,9 @@
 #include "runtime/base/number.hpp"
 #include "runtime/base/portable_math.hpp"
 #include "runtime/modeller/dressing.hpp"
+#include "runtime/modeller/flat_start.hpp"
 #include "runtime/modeller/placement_carry.hpp"
+#include "runtime/modeller/placement_lay.hpp"
 #include "runtime/modeller/wrap_curve.hpp"
 
 namespace garment::modeller {
@@ -32,6 +34,7 @@ struct Workspace {
   Findings& findings;
   std::vector<Vector3d> place;
   std::vector<bool> done;
+  std::vector<Vector3d> flat;  ///< of every vertex: where it lies in its panel when the pleats are folded, and above it, m
 };
 
 template <class F>
@@ -43,8 +46,9 @@ void for_each_vertex(const model::Model& model, std::size_t panel, const F& f) {
 Extent extent_of(const Workspace& w, std::size_t panel) {
   Extent e;
   for_each_vertex(w.model, panel, [&](model::Index v) {
-    e.low = e.low.cwiseMin(w.model.vertex_uv[v]);
-    e.high = e.high.cwiseMax(w.model.vertex_uv[v]);
+    const Vector2d at = w.flat[v].head<2>();
+    e.low = e.low.cwiseMin(at);
+    e.high = e.high.cwiseMax(at);
   });
   return e;
 }
@@ -148,9 +152,11 @@ void lay_on(Workspace& w, const Ring& ring, const WrapCurve& curve) {
     double middle = middle_x(w, panel);
     double s0 = ring_fraction(w.garment.panels[panel].placement.part) * curve.length();
     for_each_vertex(w.model, panel, [&](model::Index v) {
-      Vector2d uv = w.model.vertex_uv[v];
-      Vector2d p = curve.at(s0 + uv.x() - middle);
-      w.place[v] = {p.x(), uv.y() + ring.base[k], p.y()};
+      const Vector3d& flat = w.flat[v];
+      const double s = s0 + flat.x() - middle;
+      Vector2d p = curve.at(s);
+      if (flat.z() != 0) p += flat.z() * curve.normal_at(s);
+      w.place[v] = {p.x(), flat.y() + ring.base[k], p.y()};
     });
   }
 }
@@ -260,10 +266,10 @@ bool place_around_limb(Workspace& w, std::size_t panel) {
   if (!p.placement.edge.empty()) top = edge_height(p, p.placement.edge);
   if (!top) top = e.high.y();
   for_each_vertex(w.model, panel, [&](model::Index v) {
-    Vector2d uv = w.model.vertex_uv[v];
-    double angle = (uv.x() - middle) / radius;
-    w.place[v] = root.center + (*top - uv.y()) * axis +
-                 radius * (portable::cos(angle) * outward + portable::sin(angle) * right);
+    const Vector3d& flat = w.flat[v];
+    double angle = (flat.x() - middle) / radius;
+    w.place[v] = root.center + (*top - flat.y()) * axis +
+                 (radius + flat.z()) * (portable::cos(angle) * outward + portable::sin(angle) * right);
   });
   w.done[panel] = true;
   return true;
@@ -272,10 +278,20 @@ bool place_around_limb(Workspace& w, std::size_t panel) {
 void place_rigid(Workspace& w, std::size_t panel) {
   const Placement& p = w.garment.panels[panel].placement;
   for_each_vertex(w.model, panel, [&](model::Index v) {
-    const Vector2d& uv = w.model.vertex_uv[v];
-    w.place[v] = p.rotation * Vector3d(uv.x(), uv.y(), 0) + p.translation;
+    w.place[v] = p.rotation * w.flat[v] + p.translation;
   });
   w.done[panel] = true;
+}
+
+/// Lays a panel on the placed one that it is said to lie over or under; true where there was one.
+bool lay_on_others(Workspace& w) {
+  for (const design::Stacking& s : w.garment.stackings) {
+    if (w.done[s.panel] || !w.done[s.other]) continue;
+    const double gap = std::max(layer_gap(w.garment, s.panel), layer_gap(w.garment, s.other));
+    if (!lay_panel(w.model, s.panel, s.other, s.over ? gap : -gap, w.place)) continue;
+    return w.done[s.panel] = true;
+  }
+  return false;
 }
 
 /// Panels without a stated place are carried on from the panels they are sewn to, those with the longest seam first.
@@ -286,6 +302,7 @@ bool place_from_seams(Workspace& w) {
     return true;
   }
   while (true) {
+    if (lay_on_others(w)) continue;
     std::optional<std::size_t> best;
     std::size_t most = 1;
     for (std::size_t i = 0; i < w.done.size(); ++i) {
@@ -294,7 +311,7 @@ bool place_from_seams(Workspace& w) {
       if (shared > most) most = shared, best = i;
     }
     if (!best) break;
-    carry_panel(w.model, *best, w.done, w.place);
+    carry_panel(w.model, *best, w.flat, w.done, w.place);
     w.done[*best] = true;
   }
   bool ok = true;
@@ -325,7 +342,7 @@ void average_shared(const std::vector<Vector3d>& place, model::Model& model) {
 bool place_panels(const design::Garment& garment, const std::vector<body::Body>& bodies, model::Model& model,
                   Findings& findings, bool dress) {
   Workspace w{garment, bodies, model, findings, std::vector<Vector3d>(model.n_vertices(), Vector3d::Zero()),
-              std::vector<bool>(garment.panels.size(), false)};
+              std::vector<bool>(garment.panels.size(), false), flat_start(garment, model)};
   bool ok = place_rings(w);
   for (std::size_t i = 0; i < garment.panels.size(); ++i) {
     const Placement& p = garment.panels[i].placement;

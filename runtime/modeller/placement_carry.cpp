@@ -76,8 +76,9 @@ std::size_t count_shared_particles(const model::Model& model, std::size_t panel,
   return shared_vertices(model, panel, placed).size();
 }
 
-void carry_panel(const model::Model& model, std::size_t panel, const std::vector<bool>& placed,
+void carry_panel(const model::Model& model, std::size_t panel, const std::vector<Vector3d>& flat, const std::vector<bool>& placed,
                  std::vector<Vector3d>& place) {
+  auto flat_at = [&](Index v) -> Vector2d { return flat[v].head<2>(); };
   std::vector<Shared> shared = shared_vertices(model, panel, placed);
   std::map<Index, Matrix32> gradient = gradients_at(model, shared, place);
   // The seam's direction at each shared particle, from the nearest other shared particle of the same placed panel. Where a
@@ -87,7 +88,7 @@ void carry_panel(const model::Model& model, std::size_t panel, const std::vector
     double nearest = 1e300;
     for (std::size_t j = 0; j < shared.size(); ++j) {
       if (j == i) continue;
-      const Vector2d here = model.vertex_uv[shared[j].here] - model.vertex_uv[shared[i].here];
+      const Vector2d here = flat_at(shared[j].here) - flat_at(shared[i].here);
       if (here.norm() >= nearest || here.norm() < 1e-9) continue;
       double shortest = 1e300;
       for (Index a : shared[i].places)
@@ -106,11 +107,12 @@ void carry_panel(const model::Model& model, std::size_t panel, const std::vector
   for (Index v = range.first_vertex; v < range.first_vertex + range.n_vertices; ++v) {
     std::size_t best = 0;
     for (std::size_t i = 1; i < shared.size(); ++i)
-      if ((model.vertex_uv[v] - model.vertex_uv[shared[i].here]).squaredNorm() <
-          (model.vertex_uv[v] - model.vertex_uv[shared[best].here]).squaredNorm())
+      if ((flat_at(v) - flat_at(shared[i].here)).squaredNorm() < (flat_at(v) - flat_at(shared[best].here)).squaredNorm())
         best = i;
-    Vector2d off = turn[best] * (model.vertex_uv[v] - model.vertex_uv[shared[best].here]);
-    place[v] = place[shared[best].there] + gradient[shared[best].there] * off;
+    Vector2d off = turn[best] * (flat_at(v) - flat_at(shared[best].here));
+    const Matrix32& plane = gradient[shared[best].there];
+    place[v] = place[shared[best].there] + plane * off;
+    if (flat[v].z() != 0) place[v] += flat[v].z() * plane.col(0).cross(plane.col(1));
   }
 }
 

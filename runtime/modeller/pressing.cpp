@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "runtime/base/portable_math.hpp"
+#include "runtime/modeller/folding.hpp"
 
 namespace garment::modeller {
 namespace {
@@ -16,8 +17,8 @@ using design::Point2;
 using design::Press;
 using model::Index;
 
-constexpr double kChordError = 1e-4;       // m, of curves that are folded along
 constexpr double kLargestFold = 3.05;      // rad; folded flat, cloth turns about its own thickness
+constexpr double kLeastTwist = 1e-6;       // 1/m; curls along the threads leave none
 constexpr double kSharp = 1e-6;            // m, shorter folds lie in one cell
 
 double cross(const Point2& a, const Point2& b) { return a.x() * b.y() - a.y() * b.x(); }
@@ -29,12 +30,21 @@ struct Thread {
   double length;
 };
 
+/// A cell: its panel, its middle, its threads.
+struct Spot {
+  int panel;
+  Point2 at, weft, warp;
+};
+
 /// One press as its panels see it.
 class Pressed {
  public:
-  Pressed(const design::Garment& garment, const Press& press) : press_(press) {
-    for (const design::EdgePart& part : press.line)
-      lines_.push_back({part.panel, points_of(design::edge_of(garment.panels[part.panel], part).curve, part)});
+  Pressed(const design::Garment& garment, const std::vector<BorderPanel>& outlines, const Press& press) : press_(press) {
+    for (const design::EdgePart& part : press.line) {
+      if (press.kind == Press::Kind::fold && part.on != design::EdgePart::On::line) continue;
+      const design::Panel& panel = garment.panels[part.panel];
+      lines_.push_back({part.panel, design::polyline_of(panel, part), follows_fold(press, panel, part, outlines[part.panel].h)});
+    }
     if (press.region < 0) return;
     for (const design::RegionPart& part : garment.regions[press.region].parts)
       regions_.emplace_back(part.panel, design::RegionTest(garment.panels[part.panel], part.shape));
@@ -44,17 +54,38 @@ class Pressed {
   bool apply(const Thread& thread, double& angle) const {
     const double before = angle;
     if (press_.kind == Press::Kind::fold) angle += folded(thread);
-    if (press_.kind == Press::Kind::curl && holds(thread)) angle += curled(thread);
-    if (press_.kind == Press::Kind::flat && holds(thread)) angle *= 1 - std::min(1.0, press_.factor);
+    if (press_.kind == Press::Kind::curl && holds(thread.panel, thread.at)) {
+      const double sine = cross(thread.along, way_at(thread.panel, thread.at));
+      angle += curl() * thread.length * sine * sine;
+    }
+    if (press_.kind == Press::Kind::flat && holds(thread.panel, thread.at)) angle *= 1 - std::min(1.0, press_.factor);
     return angle != before;
+  }
+
+  /// Changes the cell's rest twist, 1/m.
+  void apply(const Spot& cell, double& twist) const {
+    if (press_.kind == Press::Kind::curl && holds(cell.panel, cell.at)) {
+      const Point2 way = way_at(cell.panel, cell.at);
+      twist -= curl() * cross(cell.weft, way) * cross(cell.warp, way);  // to the back: against the normal
+    }
+    if (press_.kind == Press::Kind::flat && holds(cell.panel, cell.at)) twist *= 1 - std::min(1.0, press_.factor);
+  }
+
+  /// The panels on which the mesh follows its folds.
+  std::vector<int> followed() const {
+    std::vector<int> all;
+    for (const Line& line : lines_)
+      if (line.followed) all.push_back(line.panel);
+    return all;
   }
 
   /// The panels on which it should have done something, each once.
   std::vector<int> panels() const {
     std::vector<int> all;
-    if (press_.kind == Press::Kind::fold)
-      for (const Line& line : lines_) all.push_back(line.panel);
-    else
+    if (press_.kind == Press::Kind::fold) {
+      for (const Line& line : lines_)
+        if (!line.followed) all.push_back(line.panel);
+    } else
       for (const auto& region : regions_) all.push_back(region.first);
     std::sort(all.begin(), all.end());
     all.erase(std::unique(all.begin(), all.end()), all.end());
@@ -65,26 +96,18 @@ class Pressed {
   struct Line {
     int panel;
     std::vector<Point2> points;
+    bool followed;  // by the mesh: particles lie on it
   };
-
-  /// The part of the curve as a polyline.
-  static std::vector<Point2> points_of(const geometry::Curve& curve, const design::EdgePart& part) {
-    const double from = std::min(part.from, part.to), to = std::max(part.from, part.to);
-    std::vector<double> at;
-    const std::vector<Point2> whole = curve.polyline(kChordError, &at);
-    std::vector<Point2> points{curve.point_at(from)};
-    for (std::size_t k = 0; k < whole.size(); ++k)
-      if (at[k] > from && at[k] < to) points.push_back(whole[k]);
-    points.push_back(curve.point_at(to));
-    return points;
-  }
 
   double side() const { return press_.to == design::Facing::back ? 1 : -1; }
 
-  bool holds(const Thread& thread) const {
+  bool holds(int panel, const Point2& at) const {
     return std::any_of(regions_.begin(), regions_.end(),
-                       [&](const auto& r) { return r.first == thread.panel && r.second.contains(thread.at); });
+                       [&](const auto& r) { return r.first == panel && r.second.contains(at); });
   }
+
+  /// Curvature of a curl, positive to the back, 1/m.
+  double curl() const { return press_.radius > 0 ? side() * press_.set * press_.factor / press_.radius : 0; }
 
   double folded(const Thread& thread) const {
     const double whole = std::min(kLargestFold, press_.angle * press_.set * press_.factor);
@@ -99,7 +122,8 @@ class Pressed {
         if (on_line < 0 || on_line >= 1) continue;
         const double sine = std::abs(across) / size;
         const double turn = 2 * portable::asin(std::min(1.0, sine * portable::sin(whole / 2)));
-        sum += turn * share(ahead, press_.radius * whole / std::max(sine, 0.1), thread.length);
+        const double width = line.followed ? 0 : press_.radius * whole / std::max(sine, 0.1);
+        sum += turn * share(ahead, width, thread.length);
       }
     }
     return side() * sum;
@@ -112,22 +136,23 @@ class Pressed {
     return std::max(0.0, to - from) / width;
   }
 
-  double curled(const Thread& thread) const {
-    double nearest = std::numeric_limits<double>::infinity(), sine = 1;
+  /// Unit direction of the nearest place of the lines on the panel; zero without any.
+  Point2 way_at(int panel, const Point2& at) const {
+    double nearest = std::numeric_limits<double>::infinity();
+    Point2 best(0, 0);
     for (const Line& line : lines_) {
-      if (line.panel != thread.panel) continue;
+      if (line.panel != panel) continue;
       for (std::size_t k = 0; k + 1 < line.points.size(); ++k) {
         const Point2 way = line.points[k + 1] - line.points[k];
         if (!(way.norm() > 0)) continue;
-        const double t = std::clamp((thread.at - line.points[k]).dot(way) / way.squaredNorm(), 0.0, 1.0);
-        const double distance = (line.points[k] + t * way - thread.at).squaredNorm();
+        const double t = std::clamp((at - line.points[k]).dot(way) / way.squaredNorm(), 0.0, 1.0);
+        const double distance = (line.points[k] + t * way - at).squaredNorm();
         if (distance >= nearest) continue;
         nearest = distance;
-        sine = cross(thread.along, way) / way.norm();
+        best = way.normalized();
       }
     }
-    if (nearest == std::numeric_limits<double>::infinity() || !(press_.radius > 0)) return 0;
-    return side() * press_.set * press_.factor * thread.length / press_.radius * sine * sine;
+    return best;
   }
 
   const Press& press_;
@@ -150,6 +175,43 @@ std::vector<Thread> threads_of(const model::Model& model) {
   return threads;
 }
 
+/// Rest twists from curls, and what `flat` leaves of them.
+void add_twists(const std::vector<MeshedPanel>& panels, const std::vector<Pressed>& presses, model::Model& model) {
+  std::size_t c = 0;
+  for (std::size_t p = 0; p < panels.size(); ++p) {
+    const MeshedPanel& panel = panels[p];
+    for (const auto& cell : panel.mesh.cells) {
+      const Spot spot{static_cast<int>(p), 0.5 * (panel.mesh.at[cell[0]] + panel.mesh.at[cell[2]]), panel.frame.weft(),
+                      panel.frame.warp()};
+      double twist = 0;
+      for (const Pressed& press : presses) press.apply(spot, twist);
+      if (std::abs(twist) > kLeastTwist) {
+        model.twist_cell.push_back(static_cast<Index>(c));
+        model.twist_rest.push_back(twist);
+      }
+      ++c;
+    }
+  }
+}
+
+/// Is something sewn to the edge, or is it turned over?
+bool has_cloth_beyond(const design::Garment& garment, const design::EdgePart& part) {
+  auto meets = [&](const std::vector<design::EdgePart>& parts) {
+    return std::any_of(parts.begin(), parts.end(), [&](const design::EdgePart& other) {
+      return other.panel == part.panel && other.on == part.on && other.edge == part.edge &&
+             std::min(other.from, other.to) < std::max(part.from, part.to) && std::min(part.from, part.to) < std::max(other.from, other.to);
+    });
+  };
+  for (const design::Hem& hem : garment.hems)
+    if (meets(hem.parts)) return true;
+  for (const design::Seam& seam : garment.seams)
+    for (const design::SeamSide& side : seam.sides)
+      if (meets(side.parts)) return true;
+  for (const design::Zip& zip : garment.zips)
+    if (meets(zip.sides[0]) || meets(zip.sides[1])) return true;
+  return false;
+}
+
 Finding unreached(const Press& press, const MeshedPanel& panel) {
   std::string help = "give the panel a finer resolution, or iron farther from its border";
   if (press.kind == Press::Kind::flat) help = "press flat after the folds that are to go; without a fold the cloth is flat";
@@ -163,8 +225,8 @@ Finding unreached(const Press& press, const MeshedPanel& panel) {
 
 }  // namespace
 
-void add_creases(const design::Garment& garment, const std::vector<MeshedPanel>& panels, model::Model& model,
-                 Findings& findings) {
+void add_creases(const design::Garment& garment, const std::vector<MeshedPanel>& panels,
+                 const std::vector<BorderPanel>& outlines, model::Model& model, Findings& findings) {
   if (std::none_of(garment.presses.begin(), garment.presses.end(), bends)) return;
   std::vector<Thread> threads = threads_of(model);
   std::vector<double> angle(model.bend.size(), 0);
@@ -172,15 +234,29 @@ void add_creases(const design::Garment& garment, const std::vector<MeshedPanel>&
     const GridFrame& frame = panels[threads[k].panel].frame;
     threads[k].along = k % 2 == 0 ? frame.warp() : frame.weft();  // stencils come in pairs
   }
+  std::vector<Pressed> presses;
   for (const Press& press : garment.presses) {
     if (!bends(press)) continue;
-    const Pressed pressed(garment, press);
+    const Pressed& pressed = presses.emplace_back(garment, outlines, press);
     std::vector<char> reached(panels.size(), 0);
     for (std::size_t k = 0; k < threads.size(); ++k)
       if (pressed.apply(threads[k], angle[k])) reached[threads[k].panel] = 1;
+    for (const Pressed& before : presses)  // what the mesh follows is flattened there (folding.hpp)
+      for (int panel : before.followed())
+        if (press.kind == Press::Kind::flat) reached[panel] = 1;
     for (int panel : pressed.panels())
       if (!reached[panel]) findings.push_back(unreached(press, panels[panel]));
+    if (press.kind != Press::Kind::fold) continue;
+    for (const design::EdgePart& part : press.line)
+      if (part.on != design::EdgePart::On::line && !has_cloth_beyond(garment, part))
+        findings.push_back({"G1150",
+                            Severity::warning,
+                            fmt::format("iron `{}` folds edge `{}` of panel `{}`, beyond which there is no cloth", press.name,
+                                        design::edge_of(garment.panels[part.panel], part).name, panels[part.panel].panel->name),
+                            {{press.origin, ""}},
+                            "fold along a line inside the panel, or turn the edge over with `hem`"});
   }
+  add_twists(panels, presses, model);
   for (std::size_t k = 0; k < angle.size(); ++k) {
     if (angle[k] == 0) continue;
     model.crease_bend.push_back(static_cast<Index>(k));

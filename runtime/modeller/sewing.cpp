@@ -39,7 +39,8 @@ struct Walk {
 }  // namespace
 
 std::vector<Index> sew(const std::vector<Matching>& matchings, const Matched& matched, const Borders& borders,
-                       const std::vector<Index>& first_vertex, std::size_t n_vertices, model::Model& model) {
+                       const std::vector<Index>& first_vertex, std::size_t n_vertices, model::Model& model,
+                       std::vector<SewnSides>& sides) {
   Merger merger(n_vertices);
   auto walk = [&](int s, bool forward) {
     const Stretch& stretch = matched.stretches[s];
@@ -48,13 +49,26 @@ std::vector<Index> sew(const std::vector<Matching>& matchings, const Matched& ma
     return Walk{borders.stretch_first[s],
                 borders.stretch_count[s],
                 border.loops[loop],
-                loop + 1 < border.loops.size() ? border.loops[loop + 1] : static_cast<int>(border.at.size()),
+                border.end_of(loop),
                 forward,
                 first_vertex[stretch.panel]};
   };
+  for (std::size_t p = 0; p < borders.panels.size(); ++p) {
+    const std::vector<int>& same = borders.panels[p].same;
+    for (std::size_t v = 0; v < same.size(); ++v) merger.merge(first_vertex[p] + static_cast<Index>(v), first_vertex[p] + same[v]);
+  }
   std::vector<std::vector<Index>> chains(matchings.size());
   for (std::size_t m = 0; m < matchings.size(); ++m) {
     const std::vector<StretchTuple>& tuples = matched.tuples[m];
+    if (matchings[m].tied() || matchings[m].tension != 0) {
+      SewnSides sewn{&matchings[m], std::vector<std::vector<Index>>(matchings[m].sides.size())};
+      for (const StretchTuple& tuple : tuples)
+        for (std::size_t s = 0; s < tuple.stretch.size(); ++s) {
+          const Walk along = walk(tuple.stretch[s], tuple.forward[s]);
+          for (int k = sewn.side[s].empty() ? 0 : 1; k <= along.count; ++k) sewn.side[s].push_back(along[k]);
+        }
+      sides.push_back(std::move(sewn));
+    }
     if (!matchings[m].merge) continue;
     std::vector<Index> ends;  // of the tuple before, one per side: the links of a chain meet
     for (const StretchTuple& tuple : tuples) {

@@ -44,43 +44,10 @@ class Unmodelled {
   Findings findings_;
 };
 
-void find_in_panels(const design::Garment& garment, Unmodelled& out) {
-  for (const design::Panel& panel : garment.panels) {
-    out.say_all("slit", panel.slits);
-    for (const design::Pleat& pleat : panel.pleats)
-      out.say((pleat.kind == design::Pleat::Kind::tuck ? "tuck `" : "pleat `") + Unmodelled::plain(pleat.name) + "`", pleat.origin);
-  }
-}
-
-void find_in_seams(const design::Garment& garment, Unmodelled& out) {
-  for (const design::Seam& seam : garment.seams)
-    for (const design::SeamSide& side : seam.sides)
-      for (const design::EdgePart& part : side.parts)
-        if (part.on == design::EdgePart::On::line) return out.say("a seam along a line inside a panel", side.origin);
-}
-
-void find_in_zips(const design::Garment& garment, Unmodelled& out) {
-  for (const design::Zip& zip : garment.zips)
-    for (int k = 0; k < 2; ++k)
-      for (const design::EdgePart& part : zip.sides[k])
-        if (part.on == design::EdgePart::On::line) out.say("a zip along a line inside a panel", zip.origin);
-}
-
-void find_in_attachments(const design::Garment& garment, Unmodelled& out) {
-  for (const design::Attachment& attachment : garment.attachments)
-    for (const design::EdgePart& part : attachment.parts)
-      if (part.on == design::EdgePart::On::line)
-        return out.say("an attachment of a line inside a panel", attachment.origin);
-}
-
 }  // namespace
 
 Findings find_unmodelled(const design::Garment& garment, Severity severity) {
   Unmodelled out(severity);
-  find_in_panels(garment, out);
-  find_in_seams(garment, out);
-  find_in_zips(garment, out);
-  find_in_attachments(garment, out);
   find_unmodelled_cloth(garment, [&out](const std::string& what, OriginId origin) { out.say(what, origin); });
   find_unmodelled_scene(garment, [&out](const std::string& what, OriginId origin) { out.say(what, origin); });
   return out.take();

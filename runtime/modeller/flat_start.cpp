@@ -1,0 +1,94 @@
+#include "runtime/modeller/flat_start.hpp"
+
+#include <algorithm>
+
+#include "runtime/modeller/pleats.hpp"
+
+namespace garment::modeller {
+namespace {
+
+using design::Placement;
+using design::Point2;
+using model::Index;
+using model::Vector3d;
+
+constexpr double kLeastGap = 2e-3;  // m
+
+/// How many layers above (towards the face) or below the others a panel lies, where `over` and `under` say so.
+std::vector<int> layer_of_panels(const design::Garment& garment) {
+  std::vector<int> layer(garment.panels.size(), 0);
+  for (std::size_t round = 0; round < garment.panels.size(); ++round)  // a chain is no longer than that
+    for (const design::Stacking& s : garment.stackings)
+      layer[s.panel] = s.over ? std::max(layer[s.panel], layer[s.other] + 1) : std::min(layer[s.panel], layer[s.other] - 1);
+  return layer;
+}
+
+/// The line along which a panel is folded in half.
+struct Axis {
+  Point2 at{0, 0}, along{0, 1};
+  int side = -1;  ///< -1 folds to the back, 1 to the face
+};
+
+Axis half_axis(const design::Garment& garment, int panel, const Point2& low, const Point2& high) {
+  const design::Panel& p = garment.panels[panel];
+  for (const design::Press& press : garment.presses)
+    for (const design::EdgePart& part : press.line) {
+      if (press.kind != design::Press::Kind::fold || part.panel != panel || part.on != design::EdgePart::On::line) continue;
+      const geometry::Curve& curve = design::edge_of(p, part).curve;
+      const Point2 way = curve.end() - curve.start();
+      if (way.norm() > 0) return {curve.start(), way.normalized(), press.to == design::Facing::back ? -1 : 1};
+    }
+  const Point2 middle = 0.5 * (low + high);
+  if (p.fold_x) return {{*p.fold_x, 0}, {0, 1}};
+  if (high.x() - low.x() >= high.y() - low.y()) return {middle, {0, 1}};
+  return {middle, {1, 0}};
+}
+
+bool on_pleated_edge(const design::Panel& panel, const std::vector<LaidPleat>& pleats, const Point2& at) {
+  constexpr double kOnEdge = 1e-6;  // m
+  return std::any_of(pleats.begin(), pleats.end(), [&](const LaidPleat& p) {
+    const geometry::Curve& curve = panel.edges[p.edge].curve;
+    return (curve.point_at(curve.nearest(at)) - at).norm() < kOnEdge;
+  });
+}
+
+}  // namespace
+
+double layer_gap(const design::Garment& garment, int panel) {
+  return std::max(kLeastGap, 2 * garment.fabrics[garment.panels[panel].fabric].thickness);
+}
+
+std::vector<Vector3d> flat_start(const design::Garment& garment, const model::Model& model) {
+  std::vector<Vector3d> flat(model.n_vertices());
+  const std::vector<int> layer = layer_of_panels(garment);
+  for (std::size_t p = 0; p < garment.panels.size(); ++p) {
+    const design::Panel& panel = garment.panels[p];
+    const std::vector<LaidPleat> pleats = laid_pleats(panel);
+    const double gap = layer_gap(garment, static_cast<int>(p));
+    // A panel that is placed by hand lies where it was put.
+    const bool by_hand = panel.placement.kind == Placement::Kind::rigid;
+    const model::PanelRange& range = model.panels[p];
+    const Index end = range.first_vertex + range.n_vertices;
+    Point2 low(1e300, 1e300), high(-1e300, -1e300);
+    for (Index v = range.first_vertex; v < end; ++v) {
+      flat[v] = fold_pleats(pleats, model.vertex_uv[v], gap);
+      // What the edge's seam holds together is one line: the layers part from there.
+      if (flat[v].z() != 0 && on_pleated_edge(panel, pleats, model.vertex_uv[v])) flat[v].z() = 0;
+      if (!by_hand) flat[v].z() += gap * layer[p];
+      low = low.cwiseMin(flat[v].head<2>());
+      high = high.cwiseMax(flat[v].head<2>());
+    }
+    if (!panel.placement.folded) continue;
+    const Axis axis = half_axis(garment, static_cast<int>(p), low, high);
+    const Point2 across(-axis.along.y(), axis.along.x());
+    for (Index v = range.first_vertex; v < end; ++v) {
+      const double off = (flat[v].head<2>() - axis.at).dot(across);
+      if (off <= 0) continue;
+      flat[v].head<2>() -= 2 * off * across;
+      flat[v].z() = axis.side * gap - flat[v].z();
+    }
+  }
+  return flat;
+}
+
+}  // namespace garment::modeller

@@ -1,0 +1,80 @@
+#include "runtime/modeller/placement_lay.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <map>
+
+#include "runtime/model/flat_index.hpp"
+
+namespace garment::modeller {
+namespace {
+
+using Eigen::Matrix2d;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using model::Index;
+
+/// A rigid motion of the plane, which may turn it over.
+struct Motion {
+  Matrix2d turn = Matrix2d::Identity();
+  Vector2d from{0, 0}, to{0, 0};
+  double error = 0;  // sum of squared distances
+  Vector2d operator()(const Vector2d& p) const { return to + turn * (p - from); }
+};
+
+/// The motion that brings the points `here` best onto `there`.
+Motion best_motion(const std::vector<Vector2d>& here, const std::vector<Vector2d>& there, bool over) {
+  Motion motion;
+  const auto n = static_cast<double>(here.size());
+  for (std::size_t k = 0; k < here.size(); ++k) {
+    motion.from += here[k] / n;
+    motion.to += there[k] / n;
+  }
+  Matrix2d together = Matrix2d::Zero();
+  for (std::size_t k = 0; k < here.size(); ++k) together += (there[k] - motion.to) * (here[k] - motion.from).transpose();
+  const Eigen::JacobiSVD<Matrix2d> svd(together, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const double sense = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
+  motion.turn = svd.matrixU() * Vector2d(1, over ? -sense : sense).asDiagonal() * svd.matrixV().transpose();
+  for (std::size_t k = 0; k < here.size(); ++k) motion.error += (motion(here[k]) - there[k]).squaredNorm();
+  return motion;
+}
+
+}  // namespace
+
+bool lay_panel(const model::Model& model, std::size_t panel, std::size_t other, double gap, std::vector<Vector3d>& place) {
+  std::map<Index, Index> of_other;  // particle to vertex
+  const model::PanelRange &range = model.panels[panel], &under = model.panels[other];
+  for (Index v = under.first_vertex; v < under.first_vertex + under.n_vertices; ++v) of_other.emplace(model.vertex_particle[v], v);
+  std::vector<Vector2d> here, there;
+  for (Index v = range.first_vertex; v < range.first_vertex + range.n_vertices; ++v)
+    if (const auto shared = of_other.find(model.vertex_particle[v]); shared != of_other.end()) {
+      here.push_back(model.vertex_uv[v]);
+      there.push_back(model.vertex_uv[shared->second]);
+    }
+  if (here.size() < 2) return false;
+  const Motion plain = best_motion(here, there, false), over = best_motion(here, there, true);
+  const model::FlatIndex flat(model, static_cast<Index>(other));
+  auto lies_on = [&](const Motion& motion) {  // vertices
+    int n = 0;
+    std::array<double, 3> weights{};
+    for (Index v = range.first_vertex; v < range.first_vertex + range.n_vertices; ++v)
+      n += flat.locate(motion(model.vertex_uv[v]), weights) >= 0 && *std::min_element(weights.begin(), weights.end()) > -1e-6;
+    return n;
+  };
+  // A straight seam fits both ways: then the panel lies where there is more cloth under it.
+  const double same = 1e-8 * static_cast<double>(here.size());  // m^2, a tenth of a millimetre each
+  const bool turned = std::abs(plain.error - over.error) < same ? lies_on(over) > lies_on(plain) : over.error < plain.error;
+  const Motion& motion = turned ? over : plain;
+  for (Index v = range.first_vertex; v < range.first_vertex + range.n_vertices; ++v) {
+    std::array<double, 3> weights{};
+    const Index t = flat.locate(motion(model.vertex_uv[v]), weights);
+    if (t < 0) return false;
+    const model::Indices<3>& c = model.triangle[t];
+    const Vector3d normal = (place[c[1]] - place[c[0]]).cross(place[c[2]] - place[c[0]]);
+    place[v] = weights[0] * place[c[0]] + weights[1] * place[c[1]] + weights[2] * place[c[2]];
+    if (normal.norm() > 0) place[v] += gap * normal.normalized();
+  }
+  return true;
+}
+
+}  // namespace garment::modeller
