@@ -281,6 +281,7 @@ TEST_CASE("a coarse grid keeps narrow panels fine enough") {
 
 TEST_CASE("what is declared and cannot be modelled yet is refused at its place") {
   design::Garment g = sheet();
-  g.panels[0].slits.push_back({"vent", {8}, 0});
+  g.scene.wind = design::Wind{};
+  g.scene.wind->origin = {8};
   CHECK(found(g) == "G0460@8 ");
 }

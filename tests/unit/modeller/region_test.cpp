@@ -192,3 +192,27 @@ TEST_CASE("a relation on part of a side puts its fullness there only") {
   }
   CHECK(m.seams[0].length == Approx(0.3).epsilon(1e-9));
 }
+
+TEST_CASE("the model tells what the cloth of a region comes to, overlaps multiplied") {
+  RegionFactors wide, narrow;
+  wide.bend_warp = 2;
+  wide.mass = 1.5;
+  narrow.bend_warp = 3;
+  narrow.stretch_weft = 0.5;
+  design::Garment g = halved(wide);
+  g.regions.push_back(region(0, above(0.3), narrow));  // the upper half of the first
+  g.regions[1].name = "inner";
+  const model::Model m = build(g);
+  REQUIRE(m.regions.size() == 2);
+  const design::Fabric cloth = test::cloth();
+  CHECK(m.regions[0].name == "part");
+  CHECK(m.regions[0].panel == "cloth");
+  CHECK(m.regions[0].area == Approx(0.06).epsilon(0.06));  // particles on the border lie to either side
+  CHECK(m.regions[0].bending[0] == Approx(cloth.bending_rigidity[0] * 2 * (0.5 + 0.5 * 3)).epsilon(0.05));
+  CHECK(m.regions[0].bending[1] == Approx(cloth.bending_rigidity[1]));
+  CHECK(m.regions[0].areal_density == Approx(0.2 * 1.5).epsilon(0.03));
+  CHECK(m.regions[1].bending[0] == Approx(cloth.bending_rigidity[0] * 6).epsilon(0.06));
+  CHECK(m.regions[1].tensile[1] / m.regions[0].tensile[1] == Approx(0.5 / 0.75).epsilon(0.06));
+  CHECK(m.regions[1].rest_length[0] == 1);
+  CHECK(model::dump_json(m).find("\"name\": \"inner\", \"panel\": \"cloth\"") != std::string::npos);
+}
