@@ -66,16 +66,21 @@ void find_armpit(const TriangleMesh& mesh, Landmarks& marks) {
 
 }  // namespace
 
-std::optional<Landmarks> find_landmarks(const TriangleMesh& mesh) {
-  if (mesh.vertices.empty()) return std::nullopt;
+std::optional<Landmarks> find_landmarks(const TriangleMesh& mesh, std::optional<double> stature, Lacking* lacking) {
+  auto none = [&](Lacking what) -> std::optional<Landmarks> {
+    if (lacking != nullptr) *lacking = what;
+    return std::nullopt;
+  };
+  if (mesh.vertices.empty()) return none(Lacking::stature);
   Landmarks marks;
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const Vector3d& p : mesh.vertices) low = std::min(low, p.y()), high = std::max(high, p.y());
   marks.base = low;
-  marks.stature = high - low;
-  if (!(marks.stature >= kLeastStature && marks.stature <= kMostStature)) return std::nullopt;
+  marks.top = high;
+  marks.stature = stature.value_or(high - low);
+  if (!(marks.stature >= kLeastStature && marks.stature <= kMostStature)) return none(Lacking::stature);
   std::optional<LegPair> legs = legs_at(mesh, marks.height(0.30));
-  if (!legs || legs->left - legs->right < 0.03 * marks.stature) return std::nullopt;
+  if (!legs || legs->left - legs->right < 0.03 * marks.stature) return none(Lacking::legs);
   marks.center_x = 0.5 * (legs->left + legs->right);
   for (double y = marks.height(0.36); y < marks.height(0.60); y += kStep) {
     std::optional<Loop> trunk = trunk_at(mesh, marks.center_x, y);
@@ -84,8 +89,10 @@ std::optional<Landmarks> find_landmarks(const TriangleMesh& mesh) {
       break;
     }
   }
-  if (marks.crotch == 0 || !trunk_at(mesh, marks.center_x, marks.height(0.64))) return std::nullopt;
+  if (marks.crotch == 0) return none(Lacking::crotch);
+  if (!trunk_at(mesh, marks.center_x, marks.height(0.64))) return none(Lacking::torso);
   find_armpit(mesh, marks);
+  if (lacking != nullptr) *lacking = Lacking::nothing;
   return marks;
 }
 
