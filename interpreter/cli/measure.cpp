@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -35,6 +36,9 @@ std::optional<Measured> measure_mesh(const body::TriangleMesh& mesh, std::option
   if (!found.stance) return std::nullopt;
   Measured out{name, std::move(*found.stance), {}, {}};
   out.measures = body::measure_person(out.stance.mesh, out.stance.marks, out.stance.head);
+  if (std::none_of(out.measures.begin(), out.measures.end(), [](const PersonMeasure& m) { return m.name == "biceps"; }))
+    findings.push_back({"G0719", Severity::note, fmt::format("no arm of `{}` was found; what is measured on arms is left out", name), {},
+                        "hold the arms clear of the trunk"});
   return out;
 }
 

@@ -37,6 +37,26 @@ double half_breadth(const Loop& loop, double center_x) {
   return std::max(loop_high(loop).x() - center_x, center_x - loop_low(loop).x());
 }
 
+/// An arm that hangs close to the trunk grows into it by little and little: the armpit is where its own loop ends, going up.
+bool find_hanging_arms(const TriangleMesh& mesh, Landmarks& marks, double low, double high) {
+  constexpr double kLeastArm = 0.0015, kMostArm = 0.02;  // m^2
+  for (double y = high; y > low; y -= kStep) {
+    const std::optional<Loop> trunk = trunk_at(mesh, marks.center_x, y);
+    if (!trunk) continue;
+    const double half = half_breadth(*trunk, marks.center_x);
+    bool arm[2] = {false, false};
+    for (const Loop& loop : slice(mesh, horizontal(y))) {
+      const double x = loop_centroid(loop).x() - marks.center_x, area = std::fabs(loop_area(loop));
+      if (area > kLeastArm && area < kMostArm && std::fabs(x) > 0.9 * half) arm[x > 0] = true;
+    }
+    if (!arm[0] || !arm[1]) continue;
+    marks.armpit = y;
+    marks.reach = half;
+    return true;
+  }
+  return false;
+}
+
 /// First height, going up, where the trunk's loop takes the arms in: it grows by an arm on both sides.
 void find_armpit(const TriangleMesh& mesh, Landmarks& marks) {
   constexpr double kStep1 = 0.01, kJump = 0.04;
@@ -57,6 +77,7 @@ void find_armpit(const TriangleMesh& mesh, Landmarks& marks) {
     }
     before = std::move(here);
   }
+  if (find_hanging_arms(mesh, marks, low, high)) return;
   // No arms (a dress form): the usual place of the armpit, and the broadest of what is above it.
   marks.armpit = marks.height(0.76);
   for (double y = marks.armpit; y < high; y += kStep1)

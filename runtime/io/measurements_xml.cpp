@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <pugixml.hpp>
 
@@ -144,6 +145,10 @@ class Reader {
       const auto base = number(e.node, "base"), size = number(e.node, "size_increase"), height = number(e.node, "height_increase");
       if (!base || !size || !height) return;
       e.value = *base + sizes * *size + heights * *height;
+      if (!std::isfinite(e.value)) {
+        fail("G0721", e.node.offset_debug(), fmt::format("`{}` has no finite value", e.name), "state a number of its size");
+        return;
+      }
     }
     finish();
   }

@@ -317,6 +317,9 @@ complains "note[G0718]"
 awk '/^v /{high[++n] = $4 < -9 || $3 > 1.46} /^f /{for (k = 2; k <= NF; ++k) {split($k, i, "/"); if (high[i[1]]) next}} {print}' worn_out/body.obj >headless.obj
 run 0 measure headless.obj
 complains "note[G0717]"
+awk '/^v /{far[++n] = ($2 > 0.24 || $2 < -0.24) && $3 > 0.7} /^f /{for (k = 2; k <= NF; ++k) {split($k, i, "/"); if (far[i[1]]) next}} {print}' worn_out/body.obj >armless.obj
+run 0 measure armless.obj
+complains "note[G0719]"
 printf 'v 0 0 0\nv 1 0 0\nv 0 1.7 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n' >wedge.obj
 run 1 measure wedge.obj
 complains "error[G0714]"

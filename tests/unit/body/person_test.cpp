@@ -189,6 +189,35 @@ TEST_CASE("holes, inside-out faces, doubled vertices and loose parts do not chan
   same_measures(whole, measured(worn), 0.004);
 }
 
+TEST_CASE("arms that hang are measured as those held out") {
+  auto mesh = scan("f_smpl_template.obj");
+  if (!mesh) return;
+  const auto straight = measured(*mesh);
+  double low = 1e9;
+  for (const Vector3d& p : mesh->vertices) low = std::min(low, p.y());
+  for (const double degrees : {40.0, 60.0, 72.0, 80.0}) {
+    INFO(degrees);
+    TriangleMesh bent = *mesh;
+    for (Vector3d& p : bent.vertices) {
+      // About the joint of the shoulder, softly from the trunk to the arm.
+      double share = p.y() - low < 1.2 ? 0 : std::clamp((std::fabs(p.x()) - 0.15) / 0.08, 0.0, 1.0);
+      share *= share * (3 - 2 * share);
+      const double angle = -degrees * M_PI / 180 * share, side = p.x() > 0 ? 1 : -1;
+      const double dx = side * p.x() - 0.17, dy = p.y() - low - 1.33;
+      p.x() = side * (0.17 + dx * std::cos(angle) - dy * std::sin(angle));
+      p.y() = low + 1.33 + dx * std::sin(angle) + dy * std::cos(angle);
+    }
+    auto found = measured(bent);
+    for (const char* name : {"bust", "waist", "hip", "thigh", "neck", "biceps", "elbow", "wrist"}) {
+      INFO(name);
+      REQUIRE(found.count(name));
+      CHECK(found[name].size == Approx(straight.at(name).size).margin(0.02));
+    }
+    CHECK(found["sleeve_length"].size == Approx(straight.at("sleeve_length").size).margin(0.04));
+    CHECK(found["shoulder_breadth"].size == Approx(straight.at("shoulder_breadth").size).margin(0.06));
+  }
+}
+
 TEST_CASE("without head and hands the rest is measured") {
   auto mesh = scan("f_smpl_average_A40.obj");
   if (!mesh) return;
