@@ -29,24 +29,31 @@ struct Measured {
 
 double metres_of(const std::string& unit) { return unit == "mm" ? 0.001 : unit == "in" ? 0.0254 : 0.01; }
 
-std::optional<Measured> measure_mesh(const body::TriangleMesh& mesh, std::optional<double> unit, const std::string& name,
-                                     Findings& findings) {
+std::optional<Measured> measure_mesh(const body::TriangleMesh& mesh, std::optional<double> unit,
+                                     const std::string& name, Findings& findings) {
   body::StanceResult found = body::find_stance(mesh, unit, name);
   findings.insert(findings.end(), found.findings.begin(), found.findings.end());
   if (!found.stance) return std::nullopt;
   Measured out{name, std::move(*found.stance), {}, {}};
   out.measures = body::measure_person(out.stance.mesh, out.stance.marks, out.stance.head);
-  if (std::none_of(out.measures.begin(), out.measures.end(), [](const PersonMeasure& m) { return m.name == "biceps"; }))
-    findings.push_back({"G0719", Severity::note, fmt::format("no arm of `{}` was found; what is measured on arms is left out", name), {},
+  if (std::none_of(out.measures.begin(), out.measures.end(),
+                   [](const PersonMeasure& m) { return m.name == "biceps"; }))
+    findings.push_back({"G0719",
+                        Severity::note,
+                        fmt::format("no arm of `{}` was found; what is measured on arms is left out", name),
+                        {},
                         "hold the arms clear of the trunk"});
   return out;
 }
 
-ExitCode measure_file(const MeasureOptions& options, std::vector<Measured>& all, Host& host, Terminal& terminal) {
+ExitCode measure_file(const MeasureOptions& options, std::vector<Measured>& all, Host& host,
+                      Terminal& terminal) {
   const std::string& file = options.project.file;
   const HostResult<std::string> text = host.read_file(file, body::kMaxObjBytes);
   if (!text) {
-    show({plain_error("G0901", fmt::format("cannot read `{}`: {}", file, text.error.message), "check the path")}, {}, terminal);
+    show({plain_error("G0901", fmt::format("cannot read `{}`: {}", file, text.error.message),
+                      "check the path")},
+         {}, terminal);
     return kInputOutput;
   }
   const std::string name = std::filesystem::path(file).filename().string();
@@ -55,18 +62,22 @@ ExitCode measure_file(const MeasureOptions& options, std::vector<Measured>& all,
   if (read.mesh) {
     const body::Mended mended = body::mend(*read.mesh);
     if (mended.holes + mended.turned > 0)
-      findings.push_back({"G0718", Severity::note,
-                          fmt::format("`{}` has {} holes and {} faces that look the wrong way; they were mended for measuring",
-                                      name, mended.holes, mended.turned),
-                          {},
-                          "to drape on it, close the holes and recalculate the normals in a modelling program"});
+      findings.push_back(
+          {"G0718",
+           Severity::note,
+           fmt::format(
+               "`{}` has {} holes and {} faces that look the wrong way; they were mended for measuring", name,
+               mended.holes, mended.turned),
+           {},
+           "to drape on it, close the holes and recalculate the normals in a modelling program"});
     if (auto one = measure_mesh(*read.mesh, options.scale, name, findings)) all.push_back(std::move(*one));
   }
   show(interpreter::to_diagnostics(findings, interpreter::Origins{}), {}, terminal);
   return has_errors(findings) ? kDiagnostics : kOk;
 }
 
-ExitCode measure_script(const MeasureOptions& options, std::vector<Measured>& all, Host& host, Terminal& terminal) {
+ExitCode measure_script(const MeasureOptions& options, std::vector<Measured>& all, Host& host,
+                        Terminal& terminal) {
   Project project;
   if (ExitCode code = load(project, options.project, host, terminal); code != kOk) return code;
   Findings findings;
@@ -78,13 +89,18 @@ ExitCode measure_script(const MeasureOptions& options, std::vector<Measured>& al
     all.push_back(std::move(*one));
   }
   if (project.result.bodies.empty())
-    findings.push_back({"G0714", Severity::error, fmt::format("`{}` declares no body", options.project.file), {},
+    findings.push_back({"G0714",
+                        Severity::error,
+                        fmt::format("`{}` declares no body", options.project.file),
+                        {},
                         "add one, as in `body form = bodies.woman(size: 40)`"});
   show(interpreter::to_diagnostics(findings, project.result.origins), project.sources, terminal);
   return has_errors(findings) ? kDiagnostics : kOk;
 }
 
-std::string in_unit(double metres, const std::string& unit) { return fmt::format("{:.1f}", metres / metres_of(unit)); }
+std::string in_unit(double metres, const std::string& unit) {
+  return fmt::format("{:.1f}", metres / metres_of(unit));
+}
 
 /// What the script states for a measure, where it does.
 struct Stated {
@@ -109,7 +125,8 @@ std::string table(const Measured& body, const std::string& unit) {
   for (const PersonMeasure& m : body.measures) {
     if (m.kind != PersonMeasure::Kind::level) continue;
     out += fmt::format("  {:<18}{:>10}{:>10}", m.name, shown(m.height), shown(m.size));
-    if (const Stated s = stated_of(body, m); stated) out += fmt::format("{:>18}{:>10}", shown(s.height), shown(s.size));
+    if (const Stated s = stated_of(body, m); stated)
+      out += fmt::format("{:>18}{:>10}", shown(s.height), shown(s.size));
     out += "\n";
   }
   out += fmt::format("  {:<18}{:>20}", "length", "") + (stated ? fmt::format("{:>28}", "stated") : "") + "\n";
@@ -132,7 +149,8 @@ std::string csv(const std::vector<Measured>& all, const std::string& unit) {
   std::string out = fmt::format("body,measure,height [{0}],size [{0}]\n", unit);
   for (const Measured& body : all)
     for (const PersonMeasure& m : body.measures)
-      out += fmt::format("{},{},{},{}\n", body.name, m.name, m.height ? in_unit(*m.height, unit) : "", in_unit(m.size, unit));
+      out += fmt::format("{},{},{},{}\n", body.name, m.name, m.height ? in_unit(*m.height, unit) : "",
+                         in_unit(m.size, unit));
   return out;
 }
 
@@ -145,31 +163,38 @@ ordered_json as_json(const Measured& body) {
     else
       lengths[m.name] = rounded(m.size);
   }
-  return {{"name", body.name},
-          {"unit", "m"},
-          {"file", {{"metres_per_unit", body.stance.unit}, {"up", body.stance.up}, {"front", body.stance.front}}},
-          {"head", body.stance.head},
-          {"levels", std::move(levels)},
-          {"lengths", std::move(lengths)}};
+  return {
+      {"name", body.name},
+      {"unit", "m"},
+      {"file", {{"metres_per_unit", body.stance.unit}, {"up", body.stance.up}, {"front", body.stance.front}}},
+      {"head", body.stance.head},
+      {"levels", std::move(levels)},
+      {"lengths", std::move(lengths)}};
 }
 
 ExitCode write_picture(const MeasureOptions& options, const Measured& body, Host& host, Terminal& terminal) {
   std::vector<render::TapeCourse> tapes;
   for (const PersonMeasure& m : body.measures) {
     const bool level = m.kind == PersonMeasure::Kind::level;
-    if (!level && (m.name == "stature" || m.name == "crotch_height" || m.name == "upper_arm_length" || m.name.ends_with("_breadth") ||
-                   m.name.ends_with("_depth")) && m.name != "shoulder_breadth")
+    if (!level &&
+        (m.name == "stature" || m.name == "crotch_height" || m.name == "upper_arm_length" ||
+         m.name.ends_with("_breadth") || m.name.ends_with("_depth")) &&
+        m.name != "shoulder_breadth")
       continue;  // they would lie over the others
     tapes.push_back({m.name + " " + in_unit(m.size, options.unit), m.course, level, m.name == "back_length"});
   }
   const std::string stature =
-      body.stance.head ? fmt::format(", stature {} {}", in_unit(body.stance.marks.stature, options.unit), options.unit) : "";
-  const std::string bytes =
-      render::render_measures(body.stance.mesh, tapes, fmt::format("{}{}. Girths red, lengths blue, in {}.", body.name, stature, options.unit));
+      body.stance.head
+          ? fmt::format(", stature {} {}", in_unit(body.stance.marks.stature, options.unit), options.unit)
+          : "";
+  const std::string bytes = render::render_measures(
+      body.stance.mesh, tapes,
+      fmt::format("{}{}. Girths red, lengths blue, in {}.", body.name, stature, options.unit));
   const HostResult<bool> written = host.write_file(options.picture, bytes);
   if (written) return kOk;
-  show({plain_error("G0902", fmt::format("cannot write `{}`: {}", options.picture, written.error.message), "choose another name")}, {},
-       terminal);
+  show({plain_error("G0902", fmt::format("cannot write `{}`: {}", options.picture, written.error.message),
+                    "choose another name")},
+       {}, terminal);
   return kInputOutput;
 }
 

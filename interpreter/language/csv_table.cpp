@@ -48,11 +48,13 @@ void read_header(CsvTable& table, const std::vector<std::string>& cells) {
     std::replace(column.name.begin(), column.name.end(), ' ', '_');
     if (at != std::string::npos) {
       std::string unit = trimmed(cell.substr(at));
-      if (unit.size() > 2 && (unit[0] == '[' || unit[0] == '(')) unit = trimmed(unit.substr(1, unit.size() - 2));
+      if (unit.size() > 2 && (unit[0] == '[' || unit[0] == '('))
+        unit = trimmed(unit.substr(1, unit.size() - 2));
       column.unit_text = unit;
       if (const auto known = find_unit(unit)) column.unit = *known, column.has_unit = true;
     }
-    if (column.name == "name" || column.name == "id" || column.name == "row") table.name_column = table.columns.size();
+    if (column.name == "name" || column.name == "id" || column.name == "row")
+      table.name_column = table.columns.size();
     table.columns.push_back(std::move(column));
   }
 }
@@ -81,18 +83,20 @@ std::string CsvTable::hint(const std::string& name) const {
   return out;
 }
 
-std::string read_named_file(Program& program, const std::string& path, Span place, std::uint64_t most, const char* code,
-                            const std::string& what) {
+std::string read_named_file(Program& program, const std::string& path, Span place, std::uint64_t most,
+                            const char* code, const std::string& what) {
   const std::string file = readable_path(program, path, place);
   const std::string& folder = program.options.script_dir;
-  HostResult<std::string> text = program.host.read_file(folder.empty() || file[0] == '/' ? file : folder + '/' + file, most);
+  HostResult<std::string> text =
+      program.host.read_file(folder.empty() || file[0] == '/' ? file : folder + '/' + file, most);
   if (!text)
     fail(program, Message(code, what + " `" + path + "` cannot be read: " + text.error.message, place)
                       .help("put the file beside the script"));
   return std::move(*text.value);
 }
 
-CsvTable read_csv_table(Program& program, const std::string& path, Span place, const char* code, const std::string& example) {
+CsvTable read_csv_table(Program& program, const std::string& path, Span place, const char* code,
+                        const std::string& example) {
   const std::string text = read_named_file(program, path, place, kMaxTable, code, "the table");
   CsvTable table;
   std::string_view rest = text;
@@ -110,7 +114,8 @@ CsvTable read_csv_table(Program& program, const std::string& path, Span place, c
       table.rows.push_back({cells_of(line), number});
   }
   if (table.columns.empty())
-    fail(program, Message(code, "the table `" + path + "` is empty", place).help("its first row names the fields: `" + example + "`"));
+    fail(program, Message(code, "the table `" + path + "` is empty", place)
+                      .help("its first row names the fields: `" + example + "`"));
   return table;
 }
 

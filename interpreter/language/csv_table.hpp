@@ -30,12 +30,14 @@ struct CsvTable {
   std::string hint(const std::string& name) const;
 };
 
-/// Reads a file that the script names; at most 4 MB. Lines that begin with # and empty ones are passed over. Where the file
-/// cannot be read or is empty: `code`, at `place`, with `example` of a first row in the remedy.
-CsvTable read_csv_table(Program& program, const std::string& path, Span place, const char* code, const std::string& example);
+/// Reads a file that the script names; at most 4 MB. Lines that begin with # and empty ones are passed over.
+/// Where the file cannot be read or is empty: `code`, at `place`, with `example` of a first row in the
+/// remedy.
+CsvTable read_csv_table(Program& program, const std::string& path, Span place, const char* code,
+                        const std::string& example);
 
 /// The text of a file that the script names, as `readable_path` allows; else a report of `code` and Stop.
-std::string read_named_file(Program& program, const std::string& path, Span place, std::uint64_t most, const char* code,
-                            const std::string& what);
+std::string read_named_file(Program& program, const std::string& path, Span place, std::uint64_t most,
+                            const char* code, const std::string& what);
 
 }  // namespace garment::interpreter

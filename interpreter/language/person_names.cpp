@@ -3,7 +3,8 @@
 namespace garment::interpreter {
 
 const std::vector<PersonName>& person_names() {
-  // The first alias is the name in the list of measurements of Seamly2D and Valentina (vmeasurements, groups A to O).
+  // The first alias is the name in the list of measurements of Seamly2D and Valentina (vmeasurements, groups
+  // A to O).
   static const std::vector<PersonName> names = {
       {"stature", {"height", "body_height"}, true},
       {"bust", {"bust_circ", "bust_girth", "chest", "chest_girth"}, true},

@@ -31,7 +31,8 @@ std::vector<Side> sides_of(const TriangleMesh& mesh) {
 /// Where the run of sides on one edge ends that begins at `begin`.
 std::size_t run_end(const std::vector<Side>& sides, std::size_t begin) {
   std::size_t end = begin;
-  while (end < sides.size() && sides[end].low == sides[begin].low && sides[end].high == sides[begin].high) ++end;
+  while (end < sides.size() && sides[end].low == sides[begin].low && sides[end].high == sides[begin].high)
+    ++end;
   return end;
 }
 

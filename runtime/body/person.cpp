@@ -9,11 +9,13 @@ namespace {
 
 using Kind = PersonMeasure::Kind;
 
-/// Share of the way from shoulder point to wrist at which the elbow lies (ANSUR II: acromion-radiale over sleeve outseam).
+/// Share of the way from shoulder point to wrist at which the elbow lies (ANSUR II: acromion-radiale over
+/// sleeve outseam).
 constexpr double kElbow = 0.575;
 /// How far the nape (the seventh cervical vertebra) lies below the narrowest place of the neck, of stature.
 constexpr double kNape = 0.014;
-constexpr const char* kTorsoLevels[] = {"head", "neck", "shoulder", "armpit", "bust", "underbust", "waist", "hip", "crotch"};
+constexpr const char* kTorsoLevels[] = {"head",      "neck",  "shoulder", "armpit", "bust",
+                                        "underbust", "waist", "hip",      "crotch"};
 constexpr const char* kLegLevels[] = {"thigh", "knee", "calf", "ankle"};
 
 double way_length(const std::vector<Vector3d>& way) {
@@ -25,7 +27,11 @@ double way_length(const std::vector<Vector3d>& way) {
 class Measurer {
  public:
   Measurer(const TriangleMesh& mesh, const Landmarks& marks, bool head)
-      : mesh_(mesh), marks_(marks), head_(head), parts_(find_parts(mesh, marks)), levels_(find_levels(mesh, marks, parts_)) {}
+      : mesh_(mesh),
+        marks_(marks),
+        head_(head),
+        parts_(find_parts(mesh, marks)),
+        levels_(find_levels(mesh, marks, parts_)) {}
 
   std::vector<PersonMeasure> run() {
     for (const char* name : kTorsoLevels)
@@ -33,7 +39,8 @@ class Measurer {
     const int leg = leg_hull(mesh_, marks_, at("thigh"), +1).empty() ? -1 : +1;
     for (const char* name : kLegLevels) level(name, leg_hull(mesh_, marks_, at(name), leg));
     if (head_)
-      length("stature", {{marks_.center_x, marks_.base, 0}, {marks_.center_x, marks_.base + marks_.stature, 0}});
+      length("stature",
+             {{marks_.center_x, marks_.base, 0}, {marks_.center_x, marks_.base + marks_.stature, 0}});
     arm();
     back();
     for (const char* name : {"bust", "waist", "hip"}) breadth_and_depth(name);
@@ -68,7 +75,8 @@ class Measurer {
     std::optional<double> top;
     for (const Loop& loop : slice(mesh_, {{x, 0, 0}, {0, 1, 0}, {0, 0, 1}}))
       for (const Vector2d& p : loop)
-        if (std::fabs(p.y() - z) < 0.05 * marks_.stature && p.x() < marks_.height(0.86) && p.x() > marks_.armpit)
+        if (std::fabs(p.y() - z) < 0.05 * marks_.stature && p.x() < marks_.height(0.86) &&
+            p.x() > marks_.armpit)
           top = std::max(top.value_or(p.x()), p.x());
     return top;
   }
@@ -78,8 +86,9 @@ class Measurer {
     Vector3d point;  ///< on the skin over it
     bool found;      ///< by its depth
   };
-  /// The head of the arm bone lies on the arm's axis, 0.85 radii of the upper arm and a hundredth of the stature under the
-  /// skin. An arm held out level has no such place: there it is where the first section clear of the trunk is carried on to.
+  /// The head of the arm bone lies on the arm's axis, 0.85 radii of the upper arm and a hundredth of the
+  /// stature under the skin. An arm held out level has no such place: there it is where the first section
+  /// clear of the trunk is carried on to.
   std::optional<Shoulder> shoulder(const std::vector<Section>& sections, std::size_t biceps) const {
     const Section& from = sections[biceps];
     const double depth = 0.85 * perimeter(from.hull) / 6.2832 + 0.0107 * marks_.stature;
@@ -102,7 +111,8 @@ class Measurer {
       found = true;
       break;
     }
-    if (const auto top = skin_over(joint.x(), joint.z())) return Shoulder{joint, {joint.x(), *top, joint.z()}, found};
+    if (const auto top = skin_over(joint.x(), joint.z()))
+      return Shoulder{joint, {joint.x(), *top, joint.z()}, found};
     return std::nullopt;
   }
 
@@ -123,14 +133,18 @@ class Measurer {
     for (std::size_t k = biceps; k < wrist; ++k)
       if (perimeter(sections[k].hull) < 1.015 * perimeter(sections[wrist].hull)) wrist = k;
     const std::optional<Shoulder>& from = shoulders[side > 0];
-    // The tape lies on the outside of the arm; the axis from a hundredth of the stature above the joint is as long.
+    // The tape lies on the outside of the arm; the axis from a hundredth of the stature above the joint is as
+    // long.
     std::vector<Vector3d> way;
     double clear = 0.005;
-    if (from && from->found) way = {from->joint - 0.012 * marks_.stature * sections.front().axis, from->joint};
+    if (from && from->found)
+      way = {from->joint - 0.012 * marks_.stature * sections.front().axis, from->joint};
     if (from && !from->found) way = {from->point}, clear = 0.045;
     for (std::size_t k = 0; k <= wrist; ++k)
-      if (!from || (sections[k].center - from->joint).dot(sections[k].axis) > clear) way.push_back(sections[k].center);
-    const std::size_t before = way.size() - (wrist + 1);  // wraps where sections before the joint were left out; only compared
+      if (!from || (sections[k].center - from->joint).dot(sections[k].axis) > clear)
+        way.push_back(sections[k].center);
+    const std::size_t before =
+        way.size() - (wrist + 1);  // wraps where sections before the joint were left out; only compared
     const double whole = way_length(way);
     double walked = 0;
     std::size_t elbow_way = 0;
@@ -144,7 +158,8 @@ class Measurer {
     arm_ring("wrist", sections[wrist]);
     if (shoulders[0] && shoulders[1]) {
       const Vector3d &left = shoulders[1]->point, &right = shoulders[0]->point;
-      PersonMeasure across{"shoulder_breadth", Kind::length, std::nullopt, left.x() - right.x(), {left, right}};
+      PersonMeasure across{
+          "shoulder_breadth", Kind::length, std::nullopt, left.x() - right.x(), {left, right}};
       out_.push_back(std::move(across));
     }
     if (!from) return;
@@ -157,7 +172,8 @@ class Measurer {
   void neck_to(const Vector3d& shoulder, int side) {
     const Loop neck = torso_hull(mesh_, marks_, at("neck"));
     if (neck.empty()) return;
-    // The neck spreads into the shoulder: its side at the root is a quarter farther out than at its narrowest.
+    // The neck spreads into the shoulder: its side at the root is a quarter farther out than at its
+    // narrowest.
     const double x = 1.25 * (side > 0 ? loop_high(neck) : loop_low(neck)).x() - 0.25 * marks_.center_x;
     // The skin over the shoulder in the upright plane from neck to shoulder point.
     std::vector<Vector3d> way;
@@ -168,7 +184,8 @@ class Measurer {
       std::optional<double> top;
       for (const Loop& loop : slice(mesh_, upright))
         for (const Vector2d& p : loop)
-          if (std::fabs(p.y() - shoulder.z()) < 0.05 * marks_.stature && p.x() > marks_.armpit && p.x() < at("neck"))
+          if (std::fabs(p.y() - shoulder.z()) < 0.05 * marks_.stature && p.x() > marks_.armpit &&
+              p.x() < at("neck"))
             top = std::max(top.value_or(p.x()), p.x());
       if (top) way.push_back({upright.origin.x(), *top, shoulder.z()});
     }
@@ -194,7 +211,8 @@ class Measurer {
     }
     if (outline.size() < 20) return;
     const double nape = at("neck") - kNape * marks_.stature;
-    auto first_above = std::find_if(outline.begin(), outline.end(), [&](const Vector2d& p) { return p.x() > nape; });
+    auto first_above =
+        std::find_if(outline.begin(), outline.end(), [&](const Vector2d& p) { return p.x() > nape; });
     std::vector<Vector3d> way;
     for (auto p = first_above; p != outline.begin();) {
       --p;

@@ -20,10 +20,11 @@ struct Unit {
   double metres, low, high;  ///< heights of people in this unit
 };
 // 70 .. 90 might be a small child in centimetres; a grown person in inches is the likelier.
-constexpr Unit kUnits[] = {{"m", 1, 0.7, 2.6}, {"inch", 0.0254, 45, 90}, {"cm", 0.01, 90, 260}, {"mm", 0.001, 700, 2600}};
+constexpr Unit kUnits[] = {
+    {"m", 1, 0.7, 2.6}, {"inch", 0.0254, 45, 90}, {"cm", 0.01, 90, 260}, {"mm", 0.001, 700, 2600}};
 
-/// A body without a head ends at 0.82 to 0.88 of the stature, so that its crotch (0.45 to 0.50 of the stature, ANSUR II)
-/// stands at more than this share of its height.
+/// A body without a head ends at 0.82 to 0.88 of the stature, so that its crotch (0.45 to 0.50 of the
+/// stature, ANSUR II) stands at more than this share of its height.
 constexpr double kHeadless = 0.525;
 constexpr double kCrotchShare = 0.475;  // of the stature, as the legs of a mesh part: a little below the bone
 
@@ -74,7 +75,8 @@ Matrix3d legs_apart(const TriangleMesh& mesh) {
   return about_y(across.x(), -across.y());
 }
 
-/// Rotation about y that lays the long axis of the hip's section along x: a step forward turns the legs, not the hip.
+/// Rotation about y that lays the long axis of the hip's section along x: a step forward turns the legs, not
+/// the hip.
 Matrix3d hip_across(const TriangleMesh& mesh, const Landmarks& marks) {
   const Loop hull = torso_hull(mesh, marks, marks.crotch + 0.03 * marks.stature);
   const Vector2d middle = loop_centroid(hull);
@@ -91,17 +93,21 @@ Matrix3d hip_across(const TriangleMesh& mesh, const Landmarks& marks) {
   return about_y(portable::cos(angle), -portable::sin(angle));
 }
 
-/// How far the toes stand out beyond the heels on the +z side, m; where there are no feet, how far the calves stand back.
+/// How far the toes stand out beyond the heels on the +z side, m; where there are no feet, how far the calves
+/// stand back.
 double toes_forward(const TriangleMesh& mesh, const Landmarks& marks) {
   double forward = 0;
   for (int side : {+1, -1}) {
-    const Loop ankle = leg_hull(mesh, marks, marks.height(0.06), side), foot = leg_hull(mesh, marks, marks.height(0.012), side);
+    const Loop ankle = leg_hull(mesh, marks, marks.height(0.06), side),
+               foot = leg_hull(mesh, marks, marks.height(0.012), side);
     if (ankle.empty() || foot.empty()) continue;
     const double z = -loop_centroid(ankle).y();
     forward += (-loop_low(foot).y() - z) - (z + loop_high(foot).y());
   }
   if (std::fabs(forward) > 0.02 * marks.stature) return forward;
-  auto z_at = [&](double share) { return -loop_centroid(leg_hull(mesh, marks, marks.height(share), +1)).y(); };
+  auto z_at = [&](double share) {
+    return -loop_centroid(leg_hull(mesh, marks, marks.height(share), +1)).y();
+  };
   return 0.5 * (z_at(0.09) + z_at(0.28)) - z_at(0.21);
 }
 
@@ -143,7 +149,8 @@ class Finder {
     if (!(marks = find_landmarks(s.mesh, stature, &out.lacking))) return out;
     if (toes_forward(s.mesh, *marks) < 0) turn_by(about_y(-1, 0));
     if (!(marks = find_landmarks(s.mesh, stature, &out.lacking))) return out;
-    const double depth = -loop_centroid(torso_hull(s.mesh, *marks, marks->crotch + 0.03 * marks->stature)).y();
+    const double depth =
+        -loop_centroid(torso_hull(s.mesh, *marks, marks->crotch + 0.03 * marks->stature)).y();
     for (Vector3d& p : s.mesh.vertices) p -= Vector3d(marks->center_x, 0, depth);
     marks->center_x = 0;
     s.marks = *marks;
@@ -176,12 +183,18 @@ class Finder {
 std::string why_not(Lacking lacking, double height) {
   switch (lacking) {
     case Lacking::stature:
-      return fmt::format("it is {} units high, and a person is 0.7 to 2.6 m, 90 to 260 cm, 700 to 2600 mm or 45 to 90 inches",
-                         format_number(height, 4));
-    case Lacking::legs: return "a level cut at 0.3 of its height does not meet two legs of like thickness";
-    case Lacking::crotch: return "its legs do not join between 0.36 and 0.6 of its height";
-    case Lacking::torso: return "there is no trunk above the legs";
-    case Lacking::nothing: break;
+      return fmt::format(
+          "it is {} units high, and a person is 0.7 to 2.6 m, 90 to 260 cm, 700 to 2600 mm or 45 to 90 "
+          "inches",
+          format_number(height, 4));
+    case Lacking::legs:
+      return "a level cut at 0.3 of its height does not meet two legs of like thickness";
+    case Lacking::crotch:
+      return "its legs do not join between 0.36 and 0.6 of its height";
+    case Lacking::torso:
+      return "there is no trunk above the legs";
+    case Lacking::nothing:
+      break;
   }
   return "";
 }
@@ -203,10 +216,11 @@ StanceResult find_stance(const TriangleMesh& mesh, std::optional<double> unit, c
     if (best.stance) break;
   }
   if (!best.stance) {
-    result.findings.push_back(finding("G0714", Severity::error,
-                                      fmt::format("`{}` is no upright body: {}", name, why_not(best.lacking, best.height)),
-                                      "the body stands on both feet, legs apart; `--scale` says how many metres one unit of "
-                                      "the file is"));
+    result.findings.push_back(
+        finding("G0714", Severity::error,
+                fmt::format("`{}` is no upright body: {}", name, why_not(best.lacking, best.height)),
+                "the body stands on both feet, legs apart; `--scale` says how many metres one unit of "
+                "the file is"));
     return result;
   }
   const Stance& s = *best.stance;
@@ -214,14 +228,18 @@ StanceResult find_stance(const TriangleMesh& mesh, std::optional<double> unit, c
     result.findings.push_back(finding(code, Severity::note, std::move(message), std::move(help)));
   };
   if (!unit && s.unit != 1)
-    note("G0715", fmt::format("`{}` is {} units high: they are taken as {}", name, format_number(best.height, 4), s.unit_name),
-         fmt::format("in a script: mesh(\"{}\", scale: {}); here `--scale` says otherwise", name, format_number(s.unit)));
+    note("G0715",
+         fmt::format("`{}` is {} units high: they are taken as {}", name, format_number(best.height, 4),
+                     s.unit_name),
+         fmt::format("in a script: mesh(\"{}\", scale: {}); here `--scale` says otherwise", name,
+                     format_number(s.unit)));
   if (s.up != "+y" || s.front != "+z")
     note("G0716", fmt::format("`{}` stands along {} and faces {}; it was turned", name, s.up, s.front),
          "to drape on it, export it with y up, facing +z");
   if (!s.head)
-    note("G0717", fmt::format("`{}` has no head; its stature is taken as {} cm from the height of the crotch", name,
-                              format_number(100 * s.marks.stature, 4)),
+    note("G0717",
+         fmt::format("`{}` has no head; its stature is taken as {} cm from the height of the crotch", name,
+                     format_number(100 * s.marks.stature, 4)),
          "levels that follow the stature are less sure");
   result.stance = std::move(best.stance);
   return result;

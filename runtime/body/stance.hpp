@@ -1,6 +1,7 @@
 #pragma once
-// How a scan stands: its unit, which way is up, which way it looks, whether its head is there. Brings it into the stance that
-// everything else takes for granted: metres, y up, facing +z, soles at y = 0, upright plane of symmetry x = 0.
+// How a scan stands: its unit, which way is up, which way it looks, whether its head is there. Brings it into
+// the stance that everything else takes for granted: metres, y up, facing +z, soles at y = 0, upright plane
+// of symmetry x = 0.
 #include <optional>
 #include <string>
 
@@ -22,10 +23,10 @@ struct StanceResult {
   Findings findings;
 };
 
-/// Finds the stance of a mesh with one vertex a place and agreeing faces. `unit` (m for one unit of the file) is guessed from
-/// the height where it is not given: 0.7 .. 2.6 is metres, 45 .. 90 inches, 90 .. 260 centimetres, 700 .. 2600 millimetres.
-/// Errors: G0714, no upright body, with what is missing. Notes: G0715 a guessed unit other than the metre, G0716 the body was
-/// turned, G0717 no head.
+/// Finds the stance of a mesh with one vertex a place and agreeing faces. `unit` (m for one unit of the file)
+/// is guessed from the height where it is not given: 0.7 .. 2.6 is metres, 45 .. 90 inches, 90 .. 260
+/// centimetres, 700 .. 2600 millimetres. Errors: G0714, no upright body, with what is missing. Notes: G0715 a
+/// guessed unit other than the metre, G0716 the body was turned, G0717 no head.
 StanceResult find_stance(const TriangleMesh& mesh, std::optional<double> unit, const std::string& name);
 
 }  // namespace garment::body

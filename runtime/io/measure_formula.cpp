@@ -22,8 +22,18 @@ constexpr std::size_t kAny = 1000;
 const Function kFunctions[] = {
     {"min", 1, kAny, [](const std::vector<double>& a) { return *std::min_element(a.begin(), a.end()); }},
     {"max", 1, kAny, [](const std::vector<double>& a) { return *std::max_element(a.begin(), a.end()); }},
-    {"sum", 1, kAny, [](const std::vector<double>& a) { double s = 0; for (double x : a) s += x; return s; }},
-    {"avg", 1, kAny, [](const std::vector<double>& a) { double s = 0; for (double x : a) s += x; return s / static_cast<double>(a.size()); }},
+    {"sum", 1, kAny,
+     [](const std::vector<double>& a) {
+       double s = 0;
+       for (double x : a) s += x;
+       return s;
+     }},
+    {"avg", 1, kAny,
+     [](const std::vector<double>& a) {
+       double s = 0;
+       for (double x : a) s += x;
+       return s / static_cast<double>(a.size());
+     }},
     {"abs", 1, 1, [](const std::vector<double>& a) { return std::fabs(a[0]); }},
     {"sqrt", 1, 1, [](const std::vector<double>& a) { return std::sqrt(a[0]); }},
     {"sin", 1, 1, [](const std::vector<double>& a) { return portable::sin(a[0]); }},
@@ -31,13 +41,17 @@ const Function kFunctions[] = {
     {"tan", 1, 1, [](const std::vector<double>& a) { return portable::sin(a[0]) / portable::cos(a[0]); }},
     {"sinD", 1, 1, [](const std::vector<double>& a) { return portable::sin(kDegree * a[0]); }},
     {"cosD", 1, 1, [](const std::vector<double>& a) { return portable::cos(kDegree * a[0]); }},
-    {"tanD", 1, 1, [](const std::vector<double>& a) { return portable::sin(kDegree * a[0]) / portable::cos(kDegree * a[0]); }},
+    {"tanD", 1, 1,
+     [](const std::vector<double>& a) {
+       return portable::sin(kDegree * a[0]) / portable::cos(kDegree * a[0]);
+     }},
     {"degTorad", 1, 1, [](const std::vector<double>& a) { return kDegree * a[0]; }},
     {"radTodeg", 1, 1, [](const std::vector<double>& a) { return a[0] / kDegree; }},
 };
 
 bool is_letter(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || static_cast<unsigned char>(c) >= 0x80;
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' ||
+         static_cast<unsigned char>(c) >= 0x80;
 }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -48,7 +62,8 @@ class Parser {
 
   FormulaResult run() {
     const double value = sum();
-    if (error_.empty() && !at_end()) fail("`" + std::string(text_.substr(at_, 20)) + "` where the formula should end");
+    if (error_.empty() && !at_end())
+      fail("`" + std::string(text_.substr(at_, 20)) + "` where the formula should end");
     if (error_.empty() && !std::isfinite(value)) fail("the formula has no finite value");
     if (!error_.empty()) return {std::nullopt, error_};
     return {value, ""};
@@ -60,7 +75,9 @@ class Parser {
     at_ = text_.size();
   }
   bool at_end() {
-    while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t' || text_[at_] == '\n' || text_[at_] == '\r')) ++at_;
+    while (at_ < text_.size() &&
+           (text_[at_] == ' ' || text_[at_] == '\t' || text_[at_] == '\n' || text_[at_] == '\r'))
+      ++at_;
     return at_ == text_.size();
   }
   bool take(char c) {
@@ -72,9 +89,12 @@ class Parser {
   double sum() {
     double value = product();
     for (;;) {
-      if (take('+')) value += product();
-      else if (take('-')) value -= product();
-      else return value;
+      if (take('+'))
+        value += product();
+      else if (take('-'))
+        value -= product();
+      else
+        return value;
     }
   }
   double product() {
@@ -95,8 +115,10 @@ class Parser {
   double sign() {
     bool minus = false;
     for (;;) {
-      if (take('-')) minus = !minus;
-      else if (!take('+')) break;
+      if (take('-'))
+        minus = !minus;
+      else if (!take('+'))
+        break;
     }
     const double value = power();
     return minus ? -value : value;
@@ -165,6 +187,8 @@ class Parser {
 
 }  // namespace
 
-FormulaResult compute_formula(std::string_view text, const FormulaNames& names) { return Parser(text, names).run(); }
+FormulaResult compute_formula(std::string_view text, const FormulaNames& names) {
+  return Parser(text, names).run();
+}
 
 }  // namespace garment::io

@@ -23,9 +23,11 @@ class Reader {
       : text_(text), options_(options), name_(name), origin_(origin) {}
 
   MeasurementsResult run() {
-    const pugi::xml_parse_result parsed = document_.load_buffer(text_.data(), text_.size(), pugi::parse_default, pugi::encoding_utf8);
+    const pugi::xml_parse_result parsed =
+        document_.load_buffer(text_.data(), text_.size(), pugi::parse_default, pugi::encoding_utf8);
     if (!parsed) {
-      fail("G0720", parsed.offset, fmt::format("no XML: {}", parsed.description()), "save it anew in Seamly or Valentina");
+      fail("G0720", parsed.offset, fmt::format("no XML: {}", parsed.description()),
+           "save it anew in Seamly or Valentina");
       return std::move(result_);
     }
     const pugi::xml_node root = document_.document_element();
@@ -54,13 +56,17 @@ class Reader {
   };
 
   std::size_t line_of(std::ptrdiff_t offset) const {
-    const auto end = text_.begin() + std::clamp<std::ptrdiff_t>(offset, 0, static_cast<std::ptrdiff_t>(text_.size()));
+    const auto end =
+        text_.begin() + std::clamp<std::ptrdiff_t>(offset, 0, static_cast<std::ptrdiff_t>(text_.size()));
     return 1 + static_cast<std::size_t>(std::count(text_.begin(), end, '\n'));
   }
 
   void fail(const char* code, std::ptrdiff_t offset, const std::string& what, std::string help) {
-    result_.findings.push_back({code, Severity::error, fmt::format("`{}` line {}: {}", name_, line_of(offset), what),
-                                {{origin_, ""}}, std::move(help)});
+    result_.findings.push_back({code,
+                                Severity::error,
+                                fmt::format("`{}` line {}: {}", name_, line_of(offset), what),
+                                {{origin_, ""}},
+                                std::move(help)});
   }
 
   bool read_unit(const pugi::xml_node& root, bool multisize) {
@@ -68,21 +74,26 @@ class Reader {
     unit_ = unit == "cm" ? 0.01 : unit == "mm" ? 0.001 : unit == "inch" ? 0.0254 : 0;
     const pugi::xml_node place = root.child("unit") ? root.child("unit") : root;
     if (unit_ == 0)
-      fail("G0720", place.offset_debug(), fmt::format("the unit is `{}`; it must be cm, mm or inch", unit.substr(0, 40)),
+      fail("G0720", place.offset_debug(),
+           fmt::format("the unit is `{}`; it must be cm, mm or inch", unit.substr(0, 40)),
            "state it, as in <unit>cm</unit>");
     else if (multisize && unit == "inch")
-      fail("G0720", place.offset_debug(), "a multisize file in inches: sizes are graded by centimetres", "convert it to cm");
+      fail("G0720", place.offset_debug(), "a multisize file in inches: sizes are graded by centimetres",
+           "convert it to cm");
     return result_.findings.empty();
   }
 
   bool collect(const pugi::xml_node& root) {
     const pugi::xml_node body = root.child("body-measurements");
-    if (!body) fail("G0720", root.offset_debug(), "there is no <body-measurements>", "save it anew in Seamly or Valentina");
+    if (!body)
+      fail("G0720", root.offset_debug(), "there is no <body-measurements>",
+           "save it anew in Seamly or Valentina");
     for (const pugi::xml_node& m : body.children("m")) {
       std::string name = m.attribute("name").as_string();
       if (!name.empty() && (name[0] == '@' || name[0] == '#')) name.erase(0, 1);
       if (name.empty() || entries_.size() >= kMaxMeasurements) {
-        fail("G0720", m.offset_debug(), name.empty() ? "a measure has no name" : "more than 10,000 measures", "name it");
+        fail("G0720", m.offset_debug(), name.empty() ? "a measure has no name" : "more than 10,000 measures",
+             "name it");
         return false;
       }
       if (!by_name_.emplace(name, entries_.size()).second) {
@@ -99,13 +110,16 @@ class Reader {
     Entry& e = entries_[k];
     if (e.state == Entry::State::done) return {e.value, ""};
     if (e.state == Entry::State::running || depth > kMaxDepth)
-      return {std::nullopt, depth > kMaxDepth ? "more than 60 measures that need each other" : fmt::format("`{}` is made from itself", e.name)};
+      return {std::nullopt, depth > kMaxDepth ? "more than 60 measures that need each other"
+                                              : fmt::format("`{}` is made from itself", e.name)};
     e.state = Entry::State::running;
-    const FormulaResult made = compute_formula(e.node.attribute("value").as_string(), [&](const std::string& other) -> FormulaResult {
-      const auto found = by_name_.find(other);
-      if (found == by_name_.end()) return {std::nullopt, fmt::format("`{}` is no measure of this file", other.substr(0, 60))};
-      return value_of(found->second, depth + 1);
-    });
+    const FormulaResult made = compute_formula(
+        e.node.attribute("value").as_string(), [&](const std::string& other) -> FormulaResult {
+          const auto found = by_name_.find(other);
+          if (found == by_name_.end())
+            return {std::nullopt, fmt::format("`{}` is no measure of this file", other.substr(0, 60))};
+          return value_of(found->second, depth + 1);
+        });
     e.state = made.value ? Entry::State::done : Entry::State::waiting;
     e.value = made.value.value_or(0);
     return made;
@@ -126,27 +140,32 @@ class Reader {
     const auto value = parse_number(node.attribute(attribute).as_string());
     if (!value)
       fail("G0721", node.offset_debug(),
-           fmt::format("`{}` of <{}> is `{}`, no number", attribute, node.name(), std::string(node.attribute(attribute).as_string()).substr(0, 40)),
+           fmt::format("`{}` of <{}> is `{}`, no number", attribute, node.name(),
+                       std::string(node.attribute(attribute).as_string()).substr(0, 40)),
            "state a number with a point");
     return value;
   }
 
   void grade(const pugi::xml_node& root) {
-    const auto base_size = number(root.child("size"), "base"), base_height = number(root.child("height"), "base");
+    const auto base_size = number(root.child("size"), "base"),
+               base_height = number(root.child("height"), "base");
     if (!base_size || !base_height) return;
     const double sizes = options_.size ? (*options_.size - unit_ * *base_size) / kSizeStep : 0;
     const double heights = options_.height ? (*options_.height - unit_ * *base_height) / kHeightStep : 0;
     for (Entry& e : entries_) {
       if (e.node.child("sizeRules").child("break") || e.node.child("heightRules").child("break")) {
-        fail("G0720", e.node.offset_debug(), fmt::format("`{}` is graded in breaks, which are not read", e.name),
+        fail("G0720", e.node.offset_debug(),
+             fmt::format("`{}` is graded in breaks, which are not read", e.name),
              "grade it with one size_increase and one height_increase");
         return;
       }
-      const auto base = number(e.node, "base"), size = number(e.node, "size_increase"), height = number(e.node, "height_increase");
+      const auto base = number(e.node, "base"), size = number(e.node, "size_increase"),
+                 height = number(e.node, "height_increase");
       if (!base || !size || !height) return;
       e.value = *base + sizes * *size + heights * *height;
       if (!std::isfinite(e.value)) {
-        fail("G0721", e.node.offset_debug(), fmt::format("`{}` has no finite value", e.name), "state a number of its size");
+        fail("G0721", e.node.offset_debug(), fmt::format("`{}` has no finite value", e.name),
+             "state a number of its size");
         return;
       }
     }
@@ -176,7 +195,8 @@ class Reader {
 
 }  // namespace
 
-MeasurementsResult read_measurements(std::string_view text, const MeasurementOptions& options, const std::string& name, OriginId origin) {
+MeasurementsResult read_measurements(std::string_view text, const MeasurementOptions& options,
+                                     const std::string& name, OriginId origin) {
   return Reader(text, options, name, origin).run();
 }
 

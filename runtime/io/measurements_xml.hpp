@@ -12,9 +12,9 @@ namespace garment::io {
 inline constexpr std::uint64_t kMaxMeasurementBytes = 4u << 20;
 
 struct Measurement {
-  std::string name;   ///< without the @ or # of a custom measure
-  double value = 0;   ///< m, or rad
-  bool angle = false; ///< an angle: its name ends in `_angle`, as in Seamly's own list
+  std::string name;    ///< without the @ or # of a custom measure
+  double value = 0;    ///< m, or rad
+  bool angle = false;  ///< an angle: its name ends in `_angle`, as in Seamly's own list
 };
 
 struct MeasurementOptions {
@@ -26,14 +26,16 @@ struct MeasurementsResult {
   Findings findings;
 };
 
-/// Reads the text of a file. Values may be formulas over other measures of the file, in its own unit (cm, mm, inch).
+/// Reads the text of a file. Values may be formulas over other measures of the file, in its own unit (cm, mm,
+/// inch).
 ///
-/// Multisize: value = base + (size - base size) / 2 cm * size_increase + (height - base height) / 6 cm * height_increase: the
-/// steps are those of both programs (`MeasurementVariable::CalcValue`), whatever sizes the file lists.
+/// Multisize: value = base + (size - base size) / 2 cm * size_increase + (height - base height) / 6 cm *
+/// height_increase: the steps are those of both programs (`MeasurementVariable::CalcValue`), whatever sizes
+/// the file lists.
 ///
-/// Errors, each with the line: G0720 no measurement file, G0721 a value that cannot be computed (unknown name, cycle, not
-/// finite, no formula). Entities of a document type are not expanded.
-MeasurementsResult read_measurements(std::string_view text, const MeasurementOptions& options, const std::string& name,
-                                     OriginId origin);
+/// Errors, each with the line: G0720 no measurement file, G0721 a value that cannot be computed (unknown
+/// name, cycle, not finite, no formula). Entities of a document type are not expanded.
+MeasurementsResult read_measurements(std::string_view text, const MeasurementOptions& options,
+                                     const std::string& name, OriginId origin);
 
 }  // namespace garment::io

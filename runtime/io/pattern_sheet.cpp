@@ -10,8 +10,8 @@
 namespace garment::io {
 namespace {
 
-constexpr double kGap = 8;      // mm between the rooms of two panels
-constexpr double kAlike = 1e-4; // m, by which the sides of a pair may differ
+constexpr double kGap = 8;       // mm between the rooms of two panels
+constexpr double kAlike = 1e-4;  // m, by which the sides of a pair may differ
 
 /// A, B, ... Z, AA, AB, ...
 std::string seam_letter(std::size_t k) {
@@ -61,10 +61,13 @@ int partner_of(const design::Garment& g, std::size_t k, std::string_view own, st
   const std::string stem = without_side(g.panels[k].name, own);
   if (stem.empty()) return -1;
   for (std::size_t j = 0; j < g.panels.size(); ++j)
-    if (g.panels[j].name == stem + std::string(other) && mirrored(g.panels[k], g.panels[j])) return static_cast<int>(j);
+    if (g.panels[j].name == stem + std::string(other) && mirrored(g.panels[k], g.panels[j]))
+      return static_cast<int>(j);
   return -1;
 }
-bool second_of_pair(const design::Garment& g, std::size_t k) { return partner_of(g, k, ".right", ".left") >= 0; }
+bool second_of_pair(const design::Garment& g, std::size_t k) {
+  return partner_of(g, k, ".right", ".left") >= 0;
+}
 
 Point cut_size(const design::Panel& panel) {
   Extent box;
@@ -76,13 +79,15 @@ Point cut_size(const design::Panel& panel) {
 }
 
 std::string fabric_name(const design::Garment& g, const design::Panel& panel) {
-  return panel.fabric >= 0 && panel.fabric < static_cast<int>(g.fabrics.size()) ? g.fabrics[panel.fabric].name : "";
+  return panel.fabric >= 0 && panel.fabric < static_cast<int>(g.fabrics.size()) ? g.fabrics[panel.fabric].name
+                                                                                : "";
 }
 
 CutRow row_of(const design::Garment& g, std::size_t k) {
   const design::Panel& panel = g.panels[k];
   const bool pair = partner_of(g, k, ".left", ".right") >= 0;
-  return {pair ? without_side(panel.name, ".left") : panel.name, pair ? 2 : 1, pair, fabric_name(g, panel), cut_size(panel)};
+  return {pair ? without_side(panel.name, ".left") : panel.name, pair ? 2 : 1, pair, fabric_name(g, panel),
+          cut_size(panel)};
 }
 
 std::vector<std::string> facts_of(const design::Garment& g, const design::Panel& panel,
@@ -110,7 +115,8 @@ std::string seam_line(const design::Garment& g, std::size_t s) {
     for (const design::EdgePart& part : side.parts) {
       if (!known(g, part)) continue;
       length += std::fabs(part.to - part.from);
-      const std::string name = g.panels[part.panel].name + "." + design::edge_of(g.panels[part.panel], part).name;
+      const std::string name =
+          g.panels[part.panel].name + "." + design::edge_of(g.panels[part.panel], part).name;
       names += (names.empty() ? "" : " + ") + name;
     }
     out += (first ? "" : "   to   ") + names + " " + millimetres(length);
@@ -138,12 +144,14 @@ std::vector<std::string> cut_lines_of(const design::Garment& g) {
   std::vector<std::string> out;
   for (const CutRow& row : cut_list(g))
     out.push_back(row.piece + ":   cut " + std::to_string(row.count) + (row.pair ? ", a pair" : "") +
-                  (row.fabric.empty() ? "" : "   of " + row.fabric) + "   " + format_number(std::round(row.size[0]), 6) + " x " +
+                  (row.fabric.empty() ? "" : "   of " + row.fabric) + "   " +
+                  format_number(std::round(row.size[0]), 6) + " x " +
                   format_number(std::round(row.size[1]), 6) + " mm");
   return out;
 }
 
-PatternSheet::PatternSheet(const design::Garment& g, const model::Model* model, bool plain, double row_width) {
+PatternSheet::PatternSheet(const design::Garment& g, const model::Model* model, bool plain,
+                           double row_width) {
   std::vector<std::vector<SeamTag>> tags = tags_by_panel(g);
   panels_.reserve(g.panels.size());
   double area = 0, widest = 0;
@@ -159,7 +167,8 @@ PatternSheet::PatternSheet(const design::Garment& g, const model::Model* model, 
     if (!plain) row.count = 1, row.pair = false;
     panels_.emplace_back(panel, std::move(tags[k]), facts_of(g, panel, made, row),
                          plain       ? std::array{1.0, 1.0, 1.0}
-                         : of_fabric ? g.fabrics[panel.fabric].color : std::array{0.6, 0.6, 0.6});
+                         : of_fabric ? g.fabrics[panel.fabric].color
+                                     : std::array{0.6, 0.6, 0.6});
     has_allowances_ = has_allowances_ || !cut_lines(panel).empty();
     area += panels_.back().size().prod();
     widest = std::max(widest, panels_.back().size()[0]);

@@ -14,15 +14,16 @@ struct CutRow {
   int count = 1;      ///< pieces of cloth
   bool pair = false;  ///< the second is the first one's mirror image
   std::string fabric;
-  Point size{0, 0};   ///< of the cut piece, allowances included, mm
+  Point size{0, 0};  ///< of the cut piece, allowances included, mm
 };
 /// The pieces in the order declared; `sleeve.left` and its mirror image `sleeve.right` are one row, `sleeve`.
 std::vector<CutRow> cut_list(const design::Garment& garment);
 
 class PatternSheet {
  public:
-  /// All panels in rows, the tallest first, wider than high, or within `row_width` mm where it is given (a wider panel takes
-  /// what it needs). `plain`, for a printer: white pieces, of a pair the left one alone. `model`, where given, tells areas and masses.
+  /// All panels in rows, the tallest first, wider than high, or within `row_width` mm where it is given (a
+  /// wider panel takes what it needs). `plain`, for a printer: white pieces, of a pair the left one alone.
+  /// `model`, where given, tells areas and masses.
   PatternSheet(const design::Garment& garment, const model::Model* model, bool plain, double row_width = 0);
 
   Point size() const { return size_; }

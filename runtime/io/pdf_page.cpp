@@ -112,7 +112,8 @@ void PdfFile::begin_window(const Extent& window, const Point& origin) {
   if (h.page == nullptr) return;
   HPDF_Page_GSave(h.page);
   const Point corner(window.low[0], window.high[1]), size = kPoint * window.size();
-  HPDF_Page_Rectangle(h.page, h.x(corner), h.y(corner), static_cast<float>(size[0]), static_cast<float>(size[1]));
+  HPDF_Page_Rectangle(h.page, h.x(corner), h.y(corner), static_cast<float>(size[0]),
+                      static_cast<float>(size[1]));
   HPDF_Page_Clip(h.page);
   HPDF_Page_EndPath(h.page);
   h.origin = origin;
@@ -164,8 +165,8 @@ void PdfFile::text(const Point& at, std::string_view text, const Lettering& l) {
   const double angle = -l.turn * portable::kPi / 180, c = portable::cos(angle), s = portable::sin(angle);
   const double dx = -before, dy = -0.35 * l.size;  // y up
   const double x = h.x(at) + kPoint * (c * dx - s * dy), y = h.y(at) + kPoint * (s * dx + c * dy);
-  HPDF_Page_SetTextMatrix(h.page, static_cast<float>(c), static_cast<float>(s), static_cast<float>(-s), static_cast<float>(c),
-                          static_cast<float>(x), static_cast<float>(y));
+  HPDF_Page_SetTextMatrix(h.page, static_cast<float>(c), static_cast<float>(s), static_cast<float>(-s),
+                          static_cast<float>(c), static_cast<float>(x), static_cast<float>(y));
   HPDF_Page_ShowText(h.page, letters.c_str());
   HPDF_Page_EndText(h.page);
 }

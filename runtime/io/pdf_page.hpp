@@ -7,7 +7,8 @@
 
 namespace garment::io {
 
-/// A PDF file being made. Everything drawn goes to the newest page, in millimetres from its upper left corner.
+/// A PDF file being made. Everything drawn goes to the newest page, in millimetres from its upper left
+/// corner.
 class PdfFile final : public Paper {
  public:
   explicit PdfFile(std::string_view title);
@@ -16,8 +17,8 @@ class PdfFile final : public Paper {
   PdfFile& operator=(const PdfFile&) = delete;
 
   void add_page(const Point& size);
-  /// From here on, until `end_window`, only what lies in this part of the page is drawn, and `origin` of the drawing lies at
-  /// `at` on the page.
+  /// From here on, until `end_window`, only what lies in this part of the page is drawn, and `origin` of the
+  /// drawing lies at `at` on the page.
   void begin_window(const Extent& window, const Point& origin);
   void end_window();
 

@@ -17,14 +17,16 @@ constexpr PaperSize kPapers[] = {{"A4", 210, 297}, {"A3", 297, 420},  {"A2", 420
 constexpr double kBorder = 10;   // mm that a printer leaves blank
 constexpr double kOverlap = 10;  // mm that neighbours share
 constexpr double kSquare = 50;   // mm, side of the test square
-const Pen kFrame{"#8a8f99", 0.25, "", "none"}, kInk{"#1b1d22", 0.35, "", "none"}, kGlue{"#b4b8c0", 0.25, "2 2", "none"};
+const Pen kFrame{"#8a8f99", 0.25, "", "none"}, kInk{"#1b1d22", 0.35, "", "none"},
+    kGlue{"#b4b8c0", 0.25, "2 2", "none"};
 const char* const kGrey = "#6a707b";
 const char* const kBlack = "#1b1d22";
 
 /// Which tiles the drawing touches. Nothing is kept of it.
 class Footprint final : public Paper {
  public:
-  Footprint(const Point& step, const Point& window, int columns, int rows) : step_(step), window_(window), columns_(columns), rows_(rows) {}
+  Footprint(const Point& step, const Point& window, int columns, int rows)
+      : step_(step), window_(window), columns_(columns), rows_(rows) {}
   const std::set<std::pair<int, int>>& tiles() const { return tiles_; }  ///< (row, column)
 
   void polyline(const std::vector<Point>& points, bool closed, const Pen& pen) override {
@@ -49,8 +51,12 @@ class Footprint final : public Paper {
 
  private:
   void mark(const Extent& box) {
-    auto first = [&](double low, int axis) { return std::max(0, static_cast<int>(std::ceil((low - window_[axis]) / step_[axis]))); };
-    auto last = [&](double high, int axis, int n) { return std::min(n - 1, static_cast<int>(std::floor(high / step_[axis]))); };
+    auto first = [&](double low, int axis) {
+      return std::max(0, static_cast<int>(std::ceil((low - window_[axis]) / step_[axis])));
+    };
+    auto last = [&](double high, int axis, int n) {
+      return std::min(n - 1, static_cast<int>(std::floor(high / step_[axis])));
+    };
     for (int r = first(box.low[1], 1); r <= last(box.high[1], 1, rows_); ++r)
       for (int c = first(box.low[0], 0); c <= last(box.high[0], 0, columns_); ++c) tiles_.insert({r, c});
   }
@@ -62,10 +68,13 @@ class Footprint final : public Paper {
 
 std::string row_letter(int row) {
   std::string out;
-  for (int k = row + 1; k > 0; k = (k - 1) / 26) out.insert(out.begin(), static_cast<char>('A' + (k - 1) % 26));
+  for (int k = row + 1; k > 0; k = (k - 1) / 26)
+    out.insert(out.begin(), static_cast<char>('A' + (k - 1) % 26));
   return out;
 }
-std::string tile_name(const std::pair<int, int>& tile) { return row_letter(tile.first) + std::to_string(tile.second + 1); }
+std::string tile_name(const std::pair<int, int>& tile) {
+  return row_letter(tile.first) + std::to_string(tile.second + 1);
+}
 
 class PdfPattern {
  public:
@@ -97,8 +106,8 @@ class PdfPattern {
     return std::max(1, static_cast<int>(std::ceil((sheet_.size()[axis] - kOverlap) / step_[axis] - 1e-9)));
   }
 
-  void letter(const Point& at, const std::string& text, double size, const char* color = kBlack, bool bold = false,
-              Anchor anchor = Anchor::start) {
+  void letter(const Point& at, const std::string& text, double size, const char* color = kBlack,
+              bool bold = false, Anchor anchor = Anchor::start) {
     file_.text(at, text, {size, anchor, 0, bold, color});
   }
   void box(const Extent& e, const Pen& pen) {
@@ -111,21 +120,27 @@ class PdfPattern {
     Point at(left, kBorder + 10);
     letter(at, title(), 8, kBlack, true);
     at[1] += 10;
-    letter(at, std::to_string(tiles_.size()) + (tiles_.size() == 1 ? " page" : " pages") + " after this one, rows A to " + row_letter(rows_ - 1) +
-                   ". Print at 100 %, without fitting to the page.", 3.6, kGrey);
+    letter(at,
+           std::to_string(tiles_.size()) + (tiles_.size() == 1 ? " page" : " pages") +
+               " after this one, rows A to " + row_letter(rows_ - 1) +
+               ". Print at 100 %, without fitting to the page.",
+           3.6, kGrey);
     at[1] += 10;
     box({at, at + Point(kSquare, kSquare)}, kInk);
     letter(at + Point(kSquare / 2, kSquare / 2 - 4), "50 mm", 5, kBlack, true, Anchor::middle);
-    letter(at + Point(kSquare / 2, kSquare / 2 + 3), "measure this square", 3.2, kGrey, false, Anchor::middle);
+    letter(at + Point(kSquare / 2, kSquare / 2 + 3), "measure this square", 3.2, kGrey, false,
+           Anchor::middle);
     letter(at + Point(kSquare / 2, kSquare / 2 + 8), "before you cut", 3.2, kGrey, false, Anchor::middle);
     const std::vector<std::string> how = {
-        sheet_.has_allowances() ? "Thick lines are stitch lines, thin lines around them cut lines." : "Lines are stitch lines: add seam allowance.",
+        sheet_.has_allowances() ? "Thick lines are stitch lines, thin lines around them cut lines."
+                                : "Lines are stitch lines: add seam allowance.",
         "Trim each page along its frame, on the left and on top.",
         "Lay it over the strip of its neighbour, edge on dashes, and glue.",
         "Short strokes across an edge are notches: clip the allowance.",
         "Arrows show the grain. Letters in circles: seams, A to A.",
     };
-    for (std::size_t k = 0; k < how.size(); ++k) letter(at + Point(kSquare + 10, 6 + 8.0 * static_cast<double>(k)), how[k], 3.6);
+    for (std::size_t k = 0; k < how.size(); ++k)
+      letter(at + Point(kSquare + 10, 6 + 8.0 * static_cast<double>(k)), how[k], 3.6);
     at[1] += kSquare + 14;
     write_list(at, left, right);
     write_map(at, right);
@@ -135,8 +150,10 @@ class PdfPattern {
     letter(at, "Cut list", 5.5, kBlack, true);
     at[1] += 8;
     const double columns[] = {left, left + 0.36 * (right - left), left + 0.56 * (right - left), right};
-    for (const auto& [x, text, anchor] : {std::tuple{columns[0], "piece", Anchor::start}, std::tuple{columns[1], "cut", Anchor::start},
-                                          std::tuple{columns[2], "fabric", Anchor::start}, std::tuple{columns[3], "size with allowance", Anchor::end}})
+    for (const auto& [x, text, anchor] :
+         {std::tuple{columns[0], "piece", Anchor::start}, std::tuple{columns[1], "cut", Anchor::start},
+          std::tuple{columns[2], "fabric", Anchor::start},
+          std::tuple{columns[3], "size with allowance", Anchor::end}})
       file_.text({x, at[1]}, text, {3.2, anchor, 0, false, kGrey});
     at[1] += 3.5;
     file_.line({left, at[1]}, {right, at[1]}, kFrame);
@@ -149,8 +166,9 @@ class PdfPattern {
       letter({columns[0], at[1]}, row.piece, 3.8);
       letter({columns[1], at[1]}, row.pair ? "2, a pair" : std::to_string(row.count), 3.8);
       letter({columns[2], at[1]}, row.fabric, 3.8);
-      letter({columns[3], at[1]}, format_number(std::round(row.size[0])) + " x " + format_number(std::round(row.size[1])) + " mm", 3.8,
-             kBlack, false, Anchor::end);
+      letter({columns[3], at[1]},
+             format_number(std::round(row.size[0])) + " x " + format_number(std::round(row.size[1])) + " mm",
+             3.8, kBlack, false, Anchor::end);
       at[1] += 6;
     }
     at[1] += 8;
@@ -187,7 +205,8 @@ class PdfPattern {
     letter(border + Point(4, 6), tile_name(tile), 7, kGrey, true);
     const Point middle = border + 0.5 * window_;
     auto neighbour = [&](int dr, int dc, const Point& at) {
-      if (there(dr, dc)) letter(at, tile_name({tile.first + dr, tile.second + dc}), 3.2, kGrey, false, Anchor::middle);
+      if (there(dr, dc))
+        letter(at, tile_name({tile.first + dr, tile.second + dc}), 3.2, kGrey, false, Anchor::middle);
     };
     neighbour(-1, 0, {middle[0], border[1] - 4});
     neighbour(1, 0, {middle[0], end[1] + 4});
@@ -231,7 +250,8 @@ class PdfPattern {
 
 std::optional<PaperSize> find_paper(std::string_view name) {
   auto same = [&](std::string_view known) {
-    return std::equal(known.begin(), known.end(), name.begin(), name.end(), [](char a, char b) { return (a | 32) == (b | 32); });
+    return std::equal(known.begin(), known.end(), name.begin(), name.end(),
+                      [](char a, char b) { return (a | 32) == (b | 32); });
   };
   for (const PaperSize& paper : kPapers)
     if (same(paper.name)) return paper;
@@ -244,7 +264,8 @@ std::string paper_names() {
   return out;
 }
 
-std::string write_pattern_pdf(const design::Garment& garment, const model::Model* model, const PaperSize& paper) {
+std::string write_pattern_pdf(const design::Garment& garment, const model::Model* model,
+                              const PaperSize& paper) {
   return PdfPattern(garment, model, paper).write();
 }
 

@@ -69,7 +69,8 @@ void draw_course(Image& image, const Pane& pane, const TapeCourse& tape) {
   for (std::size_t k = 0; k < segments; ++k) {
     const Vector3d &a = tape.course[k], &b = tape.course[(k + 1) % n];
     const bool far = tape.closed && pane.depth(0.5 * (a + b)) > pane.depth(middle);
-    draw_line(image, pane.project(a), pane.project(b), far ? 1.5 : 2.6, tape.closed ? kGirth : kLength, far ? 0.35 : 1);
+    draw_line(image, pane.project(a), pane.project(b), far ? 1.5 : 2.6, tape.closed ? kGirth : kLength,
+              far ? 0.35 : 1);
   }
 }
 
@@ -77,14 +78,18 @@ void draw_course(Image& image, const Pane& pane, const TapeCourse& tape) {
 class Column {
  public:
   Column(double edge, bool right_aligned) : edge_(edge), right_aligned_(right_aligned) {}
-  void add(const std::string& text, const Vector2d& target, Rgb color) { rows_.push_back({text, target, color, 0}); }
+  void add(const std::string& text, const Vector2d& target, Rgb color) {
+    rows_.push_back({text, target, color, 0});
+  }
   void draw(Image& image) {
     constexpr double kRow = 11 * kDot;
-    std::stable_sort(rows_.begin(), rows_.end(), [](const Row& a, const Row& b) { return a.target.y() < b.target.y(); });
+    std::stable_sort(rows_.begin(), rows_.end(),
+                     [](const Row& a, const Row& b) { return a.target.y() < b.target.y(); });
     double next = 14;
     for (Row& row : rows_) row.y = next = std::max(next, row.target.y()), next += kRow;
     double lowest = kHeight - kCaption - 14;
-    for (auto row = rows_.rbegin(); row != rows_.rend(); ++row) row->y = lowest = std::min(lowest, row->y), lowest -= kRow;
+    for (auto row = rows_.rbegin(); row != rows_.rend(); ++row)
+      row->y = lowest = std::min(lowest, row->y), lowest -= kRow;
     for (const Row& row : rows_) {
       const double width = text_width(row.text, kDot), x = right_aligned_ ? edge_ - width : edge_;
       const double from = right_aligned_ ? edge_ + 8 : edge_ - 8, bend = from + (right_aligned_ ? 30 : -30);
@@ -118,7 +123,8 @@ Vector2d outermost(const Pane& pane, const TapeCourse& tape, bool left) {
 
 }  // namespace
 
-std::string render_measures(const body::TriangleMesh& mesh, const std::vector<TapeCourse>& tapes, const std::string& caption) {
+std::string render_measures(const body::TriangleMesh& mesh, const std::vector<TapeCourse>& tapes,
+                            const std::string& caption) {
   if (mesh.triangles.empty()) return {};
   body::Body body;
   body.mesh = mesh;
@@ -149,7 +155,8 @@ std::string render_measures(const body::TriangleMesh& mesh, const std::vector<Ta
     if (tape.closed || tape.from_side) draw_course(image, side, tape);
     if (tape.closed) {
       const double x = tape.course.front().x();
-      const bool arm = std::fabs(x) > 0.2 && std::all_of(tape.course.begin(), tape.course.end(), [&](const Vector3d& p) { return p.x() * x > 0; });
+      const bool arm = std::fabs(x) > 0.2 && std::all_of(tape.course.begin(), tape.course.end(),
+                                                         [&](const Vector3d& p) { return p.x() * x > 0; });
       (arm && x > 0 ? lengths : levels).add(tape.label, outermost(front, tape, !(arm && x > 0)), kGirth);
     } else if (tape.from_side) {
       behind.add(tape.label, side.project(tape.course[tape.course.size() / 2]), kLength);

@@ -18,8 +18,9 @@ const std::string kData = GARMENT_DATA_DIR;
 
 struct Worn {
   const char* file;
-  /// Pairs of triangles of cloth that meet at the start, at most, on the worst of the bodies. More than none is a fault that
-  /// is known and that the drape mends: sleeves and hoods that are drawn for other persons cross the panels they are sewn to.
+  /// Pairs of triangles of cloth that meet at the start, at most, on the worst of the bodies. More than none
+  /// is a fault that is known and that the drape mends: sleeves and hoods that are drawn for other persons
+  /// cross the panels they are sewn to.
   std::size_t known;
 };
 constexpr Worn kGarments[] = {
@@ -88,7 +89,7 @@ void share_frame(design::Garment& garment, io::PatternFrame frame, const body::B
 struct Outcome {
   std::string refused;  ///< code and message, where the model was not built
   std::size_t cloth = 0, body = 0, inside = 0;
-  std::string pairs;    ///< "front x lfsleeve 12, ...": which panels meet
+  std::string pairs;  ///< "front x lfsleeve 12, ...": which panels meet
   bool clean() const { return refused.empty() && cloth + body + inside == 0; }
 };
 
@@ -116,14 +117,17 @@ Outcome outcome(const std::string& text, const body::Body& body) {
   const simulator::Certificate c = simulator::certify(*built.model, state, bodies);
   out.cloth = c.self_intersections, out.body = c.body_intersections, out.inside = c.inside_body;
   auto panel_of = [&](model::Index triangle) {
-    return built.model->panels[static_cast<std::size_t>(built.model->triangle_panel[static_cast<std::size_t>(triangle)])].name;
+    return built.model
+        ->panels[static_cast<std::size_t>(built.model->triangle_panel[static_cast<std::size_t>(triangle)])]
+        .name;
   };
   std::map<std::string, int> pairs;
   for (const simulator::SelfHit& hit : c.self_hits) {
     const std::string a = panel_of(hit.a), b = panel_of(hit.b);
     ++pairs[std::min(a, b) + " x " + std::max(a, b)];
   }
-  for (const auto& [name, n] : pairs) out.pairs += (out.pairs.empty() ? "" : ", ") + name + " " + std::to_string(n);
+  for (const auto& [name, n] : pairs)
+    out.pairs += (out.pairs.empty() ? "" : ", ") + name + " " + std::to_string(n);
   return out;
 }
 
@@ -150,7 +154,8 @@ TEST_CASE("imported garments start clear of bodies of both sexes and all sizes")
       CHECK(found.inside == 0);
       CHECK(found.cloth <= garment.known);
       clean += found.clean(), ++all;
-      if (!found.clean()) table += std::string(garment.file) + " on " + wearer.name + ": " + found.pairs + found.refused + "\n";
+      if (!found.clean())
+        table += std::string(garment.file) + " on " + wearer.name + ": " + found.pairs + found.refused + "\n";
     }
   }
   CHECK(all == 108);

@@ -1,4 +1,5 @@
-// The tape on mannequins whose measures are stated, on scans, and on copies of them that lie otherwise in their file.
+// The tape on mannequins whose measures are stated, on scans, and on copies of them that lie otherwise in
+// their file.
 #include "runtime/body/person.hpp"
 
 #include <Eigen/Geometry>
@@ -57,7 +58,8 @@ TriangleMesh moved(TriangleMesh mesh, const Eigen::Matrix3d& turn, double scale,
   return mesh;
 }
 
-void same_measures(const std::map<std::string, PersonMeasure>& a, const std::map<std::string, PersonMeasure>& b, double margin) {
+void same_measures(const std::map<std::string, PersonMeasure>& a,
+                   const std::map<std::string, PersonMeasure>& b, double margin) {
   CHECK(a.size() == b.size());
   for (const auto& [name, m] : a) {
     INFO(name);
@@ -67,17 +69,20 @@ void same_measures(const std::map<std::string, PersonMeasure>& a, const std::map
   }
 }
 
-const char* code_of(const StanceResult& r) { return r.findings.empty() ? "" : r.findings.front().code.c_str(); }
+const char* code_of(const StanceResult& r) {
+  return r.findings.empty() ? "" : r.findings.front().code.c_str();
+}
 
 }  // namespace
 
 TEST_CASE("the tape finds the stated measures on mannequins of all sizes") {
-  // Where the sheet speaks of another place: the armpit of the table is a point of bone, the fullest place of an upper arm is
-  // anywhere on its muscle, a man's waist is flat down to the navel.
-  const std::map<std::string, double> kHeightMargins = {{"armpit", 0.04}, {"biceps", 0.03}, {"waist", 0.035}, {"wrist", 0.025}};
-  const std::map<std::string, double> kLengthMargins = {{"stature", 0.001},       {"crotch_height", 0.005}, {"hip_breadth", 0.01},
-                                                        {"sleeve_length", 0.03},  {"upper_arm_length", 0.03},
-                                                        {"shoulder_breadth", 0.04}};
+  // Where the sheet speaks of another place: the armpit of the table is a point of bone, the fullest place of
+  // an upper arm is anywhere on its muscle, a man's waist is flat down to the navel.
+  const std::map<std::string, double> kHeightMargins = {
+      {"armpit", 0.04}, {"biceps", 0.03}, {"waist", 0.035}, {"wrist", 0.025}};
+  const std::map<std::string, double> kLengthMargins = {
+      {"stature", 0.001},      {"crotch_height", 0.005},   {"hip_breadth", 0.01},
+      {"sleeve_length", 0.03}, {"upper_arm_length", 0.03}, {"shoulder_breadth", 0.04}};
   for (const SizeRow& row : size_table()) {
     INFO((row.person.sex == design::Mannequin::Sex::woman ? "woman " : "man ") << row.person.size);
     const design::Body declared = declare(row.person);
@@ -94,7 +99,9 @@ TEST_CASE("the tape finds the stated measures on mannequins of all sizes") {
       const auto margin = kHeightMargins.find(name);
       girths += level.girth.has_value();
       if (level.girth) CHECK(found[name].size == Approx(*level.girth).margin(0.02));
-      if (level.height) CHECK(*found[name].height == Approx(*level.height).margin(margin == kHeightMargins.end() ? 0.02 : margin->second));
+      if (level.height)
+        CHECK(*found[name].height ==
+              Approx(*level.height).margin(margin == kHeightMargins.end() ? 0.02 : margin->second));
     }
     CHECK(girths >= 10);
     for (const auto& [name, margin] : kLengthMargins) {
@@ -110,7 +117,8 @@ TEST_CASE("the tape agrees with measures taken by hand on scans") {
     const char* file;
     double stature, bust, underbust, waist, hip, wrist, shoulders, back;  // m, beside the meshes
   };
-  // Where the sheet and the tape speak of other levels (the man's underbust and waist) the figure is that of the anatomy test.
+  // Where the sheet and the tape speak of other levels (the man's underbust and waist) the figure is that of
+  // the anatomy test.
   const Hand kHands[] = {{"f_smpl_average_A40.obj", 1.658, 0.96, 0.83, 0.80, 1.05, 0.16, 0.38, 0.36},
                          {"f_smpl_template.obj", 1.658, 0.96, 0.83, 0.80, 1.05, 0.16, 0.37, 0.36},
                          {"m_smpl_average_A40.obj", 1.791, 1.01, 0.95, 0.92, 1.02, 0.17, 0.382, 0.38}};
@@ -160,7 +168,8 @@ TEST_CASE("measures do not depend on how the body lies in its file") {
 TEST_CASE("a body in its mirror has the same measures, the limbs of the other side") {
   const auto mesh = scan("m_smpl_average_A40.obj");
   if (!mesh) return;
-  auto straight = measured(*mesh), mirrored = measured(moved(*mesh, Vector3d(-1, 1, 1).asDiagonal(), 1, {0, 0, 0}));
+  auto straight = measured(*mesh),
+       mirrored = measured(moved(*mesh, Vector3d(-1, 1, 1).asDiagonal(), 1, {0, 0, 0}));
   // The section at the shoulder is cut off where the arms begin, and his shoulders differ.
   for (const char* name : {"shoulder", "shoulder_length"}) straight.erase(name), mirrored.erase(name);
   same_measures(straight, mirrored, 0.01);
@@ -235,7 +244,8 @@ TEST_CASE("without head and hands the rest is measured") {
   CHECK(std::string(code_of(found)) == "G0717");
   auto rest = by_name(measure_person(found.stance->mesh, found.stance->marks, false));
   CHECK(rest.count("stature") == 0);
-  for (const char* name : {"neck", "bust", "underbust", "waist", "hip", "thigh", "knee", "calf", "ankle", "biceps"}) {
+  for (const char* name :
+       {"neck", "bust", "underbust", "waist", "hip", "thigh", "knee", "calf", "ankle", "biceps"}) {
     INFO(name);
     REQUIRE(rest.count(name));
     CHECK(rest[name].size == Approx(whole.at(name).size).margin(0.015));

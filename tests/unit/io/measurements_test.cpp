@@ -12,8 +12,8 @@ using io::read_measurements;
 namespace {
 
 std::string smis(const std::string& rows, const std::string& unit = "cm", const std::string& root = "smis") {
-  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<" + root + ">\n<version>0.3.4</version>\n<unit>" + unit +
-         "</unit>\n<body-measurements>\n" + rows + "</body-measurements>\n</" + root + ">\n";
+  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<" + root + ">\n<version>0.3.4</version>\n<unit>" +
+         unit + "</unit>\n<body-measurements>\n" + rows + "</body-measurements>\n</" + root + ">\n";
 }
 std::string m(const std::string& name, const std::string& value) {
   return "<m name=\"" + name + "\" value=\"" + value + "\"/>\n";
@@ -28,7 +28,8 @@ std::map<std::string, double> values(const std::string& text, const io::Measurem
   return out;
 }
 
-void refused(const std::string& text, const char* code, const char* says, const io::MeasurementOptions& options = {}) {
+void refused(const std::string& text, const char* code, const char* says,
+             const io::MeasurementOptions& options = {}) {
   const io::MeasurementsResult read = read_measurements(text, options, "anna.smis", {});
   CHECK_FALSE(read.measurements);
   REQUIRE(read.findings.size() == 1);
@@ -66,8 +67,9 @@ TEST_CASE("formulas are computed as on paper") {
 }
 
 TEST_CASE("an individual file gives metres whatever its unit") {
-  auto cm = values(smis(m("bust_circ", "102") + m("waist_circ", "bust_circ - 20") + m("@half", "waist_circ / 2") +
-                        m("#third", "(@half + half) / 3") + m("shoulder_slope_neck_side_angle", "22.5")));
+  auto cm =
+      values(smis(m("bust_circ", "102") + m("waist_circ", "bust_circ - 20") + m("@half", "waist_circ / 2") +
+                  m("#third", "(@half + half) / 3") + m("shoulder_slope_neck_side_angle", "22.5")));
   CHECK(cm["bust_circ"] == Approx(1.02));
   CHECK(cm["waist_circ"] == Approx(0.82));
   CHECK(cm["half"] == Approx(0.41));
@@ -78,15 +80,19 @@ TEST_CASE("an individual file gives metres whatever its unit") {
 }
 
 TEST_CASE("a multisize file is graded by 2 cm of size and 6 cm of height") {
-  const std::string text = "<smms>\n<unit>cm</unit>\n<size base=\"50\"/>\n<height base=\"176\"/>\n<body-measurements>\n"
-                           "<m name=\"bust_circ\" base=\"104.4\" size_increase=\"3.8\" height_increase=\"0.2\"/>\n"
-                           "</body-measurements>\n</smms>\n";
+  const std::string text =
+      "<smms>\n<unit>cm</unit>\n<size base=\"50\"/>\n<height base=\"176\"/>\n<body-measurements>\n"
+      "<m name=\"bust_circ\" base=\"104.4\" size_increase=\"3.8\" height_increase=\"0.2\"/>\n"
+      "</body-measurements>\n</smms>\n";
   CHECK(values(text)["bust_circ"] == Approx(1.044));
   CHECK(values(text, {0.54, std::nullopt})["bust_circ"] == Approx(1.12));
   CHECK(values(text, {0.48, 1.70})["bust_circ"] == Approx(1.004));
-  const std::string breaks = "<vst><unit>cm</unit><size base=\"50\"/><height base=\"176\"/><body-measurements><m name=\"a\" base=\"1\" "
-                             "size_increase=\"1\" height_increase=\"0\"><sizeRules><break threshold=\"54\" increase=\"2\"/></sizeRules></m>"
-                             "</body-measurements></vst>";
+  const std::string breaks =
+      "<vst><unit>cm</unit><size base=\"50\"/><height base=\"176\"/><body-measurements><m name=\"a\" "
+      "base=\"1\" "
+      "size_increase=\"1\" height_increase=\"0\"><sizeRules><break threshold=\"54\" "
+      "increase=\"2\"/></sizeRules></m>"
+      "</body-measurements></vst>";
   refused(breaks, "G0720", "graded in breaks");
 }
 
@@ -116,7 +122,8 @@ TEST_CASE("long chains and entity bombs come to an end") {
   std::string backwards;
   for (int k = 5000; k > 0; --k) backwards += m("m" + std::to_string(k), "m" + std::to_string(k - 1));
   refused(smis(backwards + m("m0", "1")), "G0721", "more than 60");
-  const std::string bomb = "<?xml version=\"1.0\"?>\n<!DOCTYPE smis [<!ENTITY a \"1111111111\"><!ENTITY b \"&a;&a;&a;&a;\">]>\n" +
-                           smis(m("a", "&b;")).substr(39);
+  const std::string bomb =
+      "<?xml version=\"1.0\"?>\n<!DOCTYPE smis [<!ENTITY a \"1111111111\"><!ENTITY b \"&a;&a;&a;&a;\">]>\n" +
+      smis(m("a", "&b;")).substr(39);
   refused(bomb, "G0721", "where a number");
 }

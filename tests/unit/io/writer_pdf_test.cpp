@@ -49,11 +49,14 @@ std::string write(const Folder& folder, const std::string& bytes) {
 struct Grey {
   int width = 0, height = 0;
   std::string dots;
-  int at(int x, int y) const { return static_cast<unsigned char>(dots[static_cast<std::size_t>(y) * width + x]); }
+  int at(int x, int y) const {
+    return static_cast<unsigned char>(dots[static_cast<std::size_t>(y) * width + x]);
+  }
 };
 Grey page_of(const Folder& folder, const std::string& file, int page) {
   const std::string stem = (folder.path / "page").string();
-  output_of("pdftoppm -gray -r 254 -f " + std::to_string(page) + " -l " + std::to_string(page) + " -singlefile " + file + " " + stem);
+  output_of("pdftoppm -gray -r 254 -f " + std::to_string(page) + " -l " + std::to_string(page) +
+            " -singlefile " + file + " " + stem);
   std::ifstream in(stem + ".pgm", std::ios::binary);
   Grey g;
   std::string magic;
@@ -69,7 +72,8 @@ Grey page_of(const Folder& folder, const std::string& file, int page) {
 
 TEST_CASE("the same pattern gives the same bytes, without a date") {
   const design::Garment skirt = test::make_skirt_pattern();
-  const std::string a = io::write_pattern_pdf(skirt, nullptr, {}), b = io::write_pattern_pdf(skirt, nullptr, {});
+  const std::string a = io::write_pattern_pdf(skirt, nullptr, {}),
+                    b = io::write_pattern_pdf(skirt, nullptr, {});
   CHECK(a.size() > 3000);
   CHECK(a.substr(0, 5) == "%PDF-");
   CHECK(a == b);
@@ -122,7 +126,8 @@ TEST_CASE("a large sheet holds a whole piece, and the cover its cut list") {
   const std::string file = write(folder, io::write_pattern_pdf(skirt, nullptr, *io::find_paper("A0")));
   const std::string info = output_of("pdfinfo " + file);
   CHECK_THAT(info, Catch::Contains("Pages:           2"));
-  CHECK_THAT(output_of("pdftotext -f 1 -l 1 -layout " + file + " -"), Catch::Contains("Cut list") && Catch::Contains("front"));
+  CHECK_THAT(output_of("pdftotext -f 1 -l 1 -layout " + file + " -"),
+             Catch::Contains("Cut list") && Catch::Contains("front"));
 }
 
 TEST_CASE("a pair is cut twice and drawn once") {
@@ -136,5 +141,6 @@ TEST_CASE("a pair is cut twice and drawn once") {
   CHECK(rows[0].piece == "leg");
   CHECK(rows[0].count == 2);
   CHECK(rows[0].pair);
-  CHECK(io::PatternSheet(g, nullptr, true).size().prod() < 0.7 * io::PatternSheet(g, nullptr, false).size().prod());
+  CHECK(io::PatternSheet(g, nullptr, true).size().prod() <
+        0.7 * io::PatternSheet(g, nullptr, false).size().prod());
 }
