@@ -198,6 +198,38 @@ TEST_CASE("holes, inside-out faces, doubled vertices and loose parts do not chan
   same_measures(whole, measured(worn), 0.004);
 }
 
+TEST_CASE("a mesh of quads has the measures of its triangles") {
+  const auto mesh = scan("f_smpl_average_A40.obj");
+  if (!mesh) return;
+  // Every triangle in three: from its corners to the middles of its sides and its own middle.
+  std::string text;
+  int n = 0;
+  auto vertex = [&](const Vector3d& p) {
+    text += "v " + format_number(p.x()) + " " + format_number(p.y()) + " " + format_number(p.z()) + "\n";
+    return ++n;
+  };
+  for (const auto& t : mesh->triangles) {
+    int corner[3], side[3];
+    Vector3d middle = Vector3d::Zero();
+    for (int k = 0; k < 3; ++k) {
+      // The middle of a side must come out the same from both its triangles.
+      const Vector3d &a = mesh->vertices[std::min(t[k], t[(k + 1) % 3])],
+                     &b = mesh->vertices[std::max(t[k], t[(k + 1) % 3])];
+      corner[k] = vertex(mesh->vertices[t[k]]);
+      side[k] = vertex(0.5 * (a + b));
+      middle += mesh->vertices[t[k]] / 3;
+    }
+    const int center = vertex(middle);
+    for (int k = 0; k < 3; ++k)
+      text += "f " + std::to_string(corner[k]) + "/1 " + std::to_string(side[k]) + "/1 " +
+              std::to_string(center) + "/1 " + std::to_string(side[(k + 2) % 3]) + "/1\n";
+  }
+  MeshResult read = read_obj_as_is(text, "quads.obj");
+  REQUIRE(read.mesh);
+  CHECK(mend(*read.mesh).holes == 0);
+  same_measures(measured(*mesh), measured(*read.mesh), 0.001);
+}
+
 TEST_CASE("arms that hang are measured as those held out") {
   auto mesh = scan("f_smpl_template.obj");
   if (!mesh) return;
