@@ -180,12 +180,14 @@ class Finder {
   std::optional<double> unit_;
 };
 
-std::string why_not(Lacking lacking, double height) {
+std::string why_not(Lacking lacking, double height, std::optional<double> unit) {
   switch (lacking) {
     case Lacking::stature:
+      if (unit)
+        return fmt::format("with {} m for one unit it is {} m high; a person is 0.7 to 2.6 m",
+                           format_number(*unit), format_number(*unit * height, 4));
       return fmt::format(
-          "it is {} units high, and a person is 0.7 to 2.6 m, 90 to 260 cm, 700 to 2600 mm or 45 to 90 "
-          "inches",
+          "it is {} units high; a person is 0.7 to 2.6 m, 90 to 260 cm, 700 to 2600 mm or 45 to 90 inches",
           format_number(height, 4));
     case Lacking::legs:
       return "a level cut at 0.3 of its height does not meet two legs of like thickness";
@@ -218,7 +220,7 @@ StanceResult find_stance(const TriangleMesh& mesh, std::optional<double> unit, c
   if (!best.stance) {
     result.findings.push_back(
         finding("G0714", Severity::error,
-                fmt::format("`{}` is no upright body: {}", name, why_not(best.lacking, best.height)),
+                fmt::format("`{}` is no upright body: {}", name, why_not(best.lacking, best.height, unit)),
                 "the body stands on both feet, legs apart; `--scale` says how many metres one unit of "
                 "the file is"));
     return result;

@@ -293,5 +293,8 @@ TEST_CASE("what is no upright body says why") {
   };
   refused(cylinder_mesh(0.2, 1.7), "two legs");
   refused(box_mesh({5, 5, 5}), "5 units high");
+  const StanceResult scaled = find_stance(box_mesh({5, 5, 5}), 0.01, "box.obj");
+  REQUIRE_FALSE(scaled.stance);
+  CHECK_THAT(scaled.findings.front().message, Catch::Contains("0.05 m high"));
   refused(ellipsoid_mesh(Vector3d::Constant(0.9)), "two legs");
 }
