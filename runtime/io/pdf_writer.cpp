@@ -122,7 +122,7 @@ class PdfPattern {
     at[1] += 10;
     letter(at,
            std::to_string(tiles_.size()) + (tiles_.size() == 1 ? " page" : " pages") +
-               " after this one, rows A to " + row_letter(rows_ - 1) +
+               " after this one, rows A to " + row_letter(tiles_.empty() ? 0 : tiles_.rbegin()->first) +
                ". Print at 100 %, without fitting to the page.",
            3.6, kGrey);
     at[1] += 10;
