@@ -8,6 +8,7 @@
 #include "interpreter/cli/explain.hpp"
 #include "interpreter/cli/golden.hpp"
 #include "interpreter/cli/lsp.hpp"
+#include "interpreter/cli/measure.hpp"
 #include "interpreter/cli/reference_page.hpp"
 #include "interpreter/cli/run.hpp"
 #include "interpreter/repl/repl.hpp"
@@ -22,6 +23,7 @@ constexpr const char* kExamples = R"(examples:
   garment run skirt.garment                     drape a script, results go to skirt/
   garment run skirt.garment -p long=70cm -o out one parameter changed, results in out/
   garment run tee.json --body woman.obj         drape a sewing-pattern specification
+  garment measure scan.obj --picture scan.png   the girths and lengths of a body
   garment check skirt.garment                   what is wrong with a script
   garment import tee.json -o tee.garment        a readable script from a specification
 )";
@@ -45,11 +47,13 @@ struct Options {
   ProjectOptions project;
   FormatOptions format;
   ImportOptions import_options;
+  MeasureOptions measure;
   GoldenOptions golden;
   bool whole_check = false;
   garment::repl::ReplOptions repl;
   std::string parse_file;
   std::vector<std::string> topics;
+  std::string paper = "A4";
   bool stdio = true, textmate = false, list_codes = false;
 };
 
@@ -75,7 +79,7 @@ void add_project(CLI::App* command, ProjectOptions& p) {
 
 int main(int argc, char** argv) {
   Options o;
-  o.run.project.stdlib_dir = o.project.stdlib_dir = GARMENT_STDLIB_DIR;
+  o.run.project.stdlib_dir = o.project.stdlib_dir = o.measure.project.stdlib_dir = GARMENT_STDLIB_DIR;
   o.golden.stdlib_dir = o.repl.stdlib_dir = GARMENT_STDLIB_DIR;
   CLI::App app{std::string(kExamples) + "\nGarment describes garments and drapes them."};
   app.name("garment");
@@ -89,6 +93,7 @@ int main(int argc, char** argv) {
   run_command->add_option("-o,--out", o.run.out, "folder for the results (default: the script's name, here)");
   run_command->add_flag("!--no-pictures", o.run.pictures, "write no pictures");
   run_command->add_flag("--ply", o.run.ply, "also write garment.ply, with strain");
+  run_command->add_option("--paper", o.paper, "sheets of a .pdf pattern: " + garment::io::paper_names())->capture_default_str();
   run_command->add_option("--max-steps", o.run.max_steps, "give up after so many steps")->check(CLI::Range(1, 1000000));
 
   auto* check_command = app.add_subcommand("check", "evaluate a script and say what is wrong with it");
@@ -113,6 +118,20 @@ int main(int argc, char** argv) {
   import_command->add_option("--body", o.import_options.body, "OBJ file of the body that the script shall name");
   import_command->add_flag("--force", o.import_options.force, "overwrite an existing script");
   add_common(import_command, o);
+  auto* measure_command = app.add_subcommand("measure", "find levels, girths and lengths on a body: a mesh, or a script's bodies");
+  measure_command->add_option("file", o.measure.project.file, "mesh (.obj) of an upright person, or a script (.garment)")->required();
+  measure_command->add_option("--unit", o.measure.unit, "of the numbers printed (--json is in metres)")
+      ->check(CLI::IsMember({"cm", "mm", "in"}))->capture_default_str();
+  measure_command->add_option("--scale", o.measure.scale, "metres for one unit of the mesh (default: guessed from its height)")
+      ->check(CLI::Range(1e-6, 1e3));
+  measure_command->add_flag("--csv", o.measure.csv, "comma-separated values instead of a table");
+  measure_command->add_option("--picture", o.measure.picture, "also write this PNG file: the tapes on the body, front and side");
+  measure_command->add_option("-p,--param", o.measure.project.params, "set a parameter of the script: -p size=42")->allow_extra_args(false);
+  measure_command->add_option("--library", o.measure.project.library_dirs, "folder where `use NAME` looks first; may be given again")
+      ->allow_extra_args(false);
+  measure_command->add_option("--allow-read", o.measure.project.allow_read, "let the script read below this folder too (may be repeated)")
+      ->allow_extra_args(false);
+  add_common(measure_command, o);
   auto* test_command = app.add_subcommand("test", "run the golden scripts of a folder");
   test_command->add_option("folder", o.golden.folder, "folder with .garment files")->required();
   test_command->add_flag("--update", o.golden.update, "write the goldens anew and show the difference");
@@ -161,12 +180,21 @@ int main(int argc, char** argv) {
   garment::install_interrupt_handler();
   garment::Host& host = garment::system_host();
   Terminal terminal(o.terminal);
-  if (*run_command) return run(o.run, host, terminal);
+  if (*run_command) {
+    const auto paper = garment::io::find_paper(o.paper);
+    if (!paper) {
+      terminal.error("`--paper " + o.paper + "` is no paper; there are " + garment::io::paper_names());
+      return kUsage;
+    }
+    o.run.paper = *paper;
+    return run(o.run, host, terminal);
+  }
   if (*check_command) return check(o.project, o.whole_check, host, terminal);
   if (*model_command) return show_model(o.project, host, terminal);
   if (*parse_command) return parse(o.parse_file, host, terminal);
   if (*format_command) return format(o.format, host, terminal);
   if (*import_command) return import_pattern(o.import_options, host, terminal);
+  if (*measure_command) return measure(o.measure, host, terminal);
   if (*reference_command) {
     terminal.result(o.textmate ? garment::service::textmate_grammar() : reference_page(app, GARMENT_STDLIB_DIR, host));
     return kOk;

@@ -62,9 +62,9 @@ void write_results(const OutputOptions& options, const Project& project, const m
 }
 
 bool save_file(const std::string& name, const Project& project, const model::Model& model, const model::State& state,
-               OutputFolder& out, Terminal& terminal) {
+               OutputFolder& out, const io::PaperSize& paper, Terminal& terminal) {
   session::ResultFile file =
-      session::make_result_file(name, project.result.garment, project.result.bodies, model, state);
+      session::make_result_file(name, project.result.garment, project.result.bodies, model, state, paper);
   if (file.bytes) return out.write(name, *file.bytes);
   show({plain_error("G0905", file.message, file.help)}, project.sources, terminal);
   return false;

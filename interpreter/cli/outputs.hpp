@@ -5,6 +5,7 @@
 #include "interpreter/cli/exit_codes.hpp"
 #include "interpreter/cli/project.hpp"
 #include "interpreter/cli/terminal.hpp"
+#include "runtime/io/pdf_writer.hpp"
 #include "runtime/model/model.hpp"
 #include "runtime/results/report.hpp"
 
@@ -44,6 +45,6 @@ void write_results(const OutputOptions& options, const Project& project, const m
 
 /// One file of a `save` act, by its ending; false (with a message) where the ending is not known or the name leaves the folder.
 bool save_file(const std::string& name, const Project& project, const model::Model& model, const model::State& state,
-               OutputFolder& out, Terminal& terminal);
+               OutputFolder& out, const io::PaperSize& paper, Terminal& terminal);
 
 }  // namespace garment::cli

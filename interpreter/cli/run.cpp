@@ -158,7 +158,7 @@ void perform(Run& run) {
       run.code = std::max(run.code, run_study(run.options, *vary, run.out.folder(), run.host, run.terminal));
     if (auto* save = std::get_if<interpreter::SaveAct>(&act.act))
       for (const std::string& name : save->paths)
-        if (!save_file(name, run.project, run.model, run.state, run.out, run.terminal)) run.code = kInputOutput;
+        if (!save_file(name, run.project, run.model, run.state, run.out, run.options.paper, run.terminal)) run.code = kInputOutput;
   }
 }
 

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "interpreter/cli/project.hpp"
+#include "runtime/io/pdf_writer.hpp"
 #include "runtime/results/report.hpp"
 
 namespace garment::cli {
@@ -12,6 +13,7 @@ struct RunOptions {
   std::string out;         ///< results folder; empty: the script's name in the current folder
   bool pictures = true;
   bool ply = false;
+  io::PaperSize paper;     ///< of a .pdf
   int max_steps = 0;       ///< 0: the simulator's own limit
 };
 

@@ -68,6 +68,7 @@ std::vector<FunctionRecord> drape_functions();
 std::vector<FunctionRecord> drape_test_functions();
 std::vector<FunctionRecord> shape_functions();
 std::vector<FunctionRecord> cloth_functions();
+std::vector<FunctionRecord> people_functions();
 }  // namespace detail
 
 }  // namespace garment::interpreter

@@ -59,6 +59,17 @@ double bounded_length_at(Call& call, std::size_t k, double min, double max) {
   return x;
 }
 
+/// Which measures of a person taken from a file come from the size table instead.
+void note_estimates(Call& call, double size) {
+  std::vector<std::string> estimated;
+  std::swap(estimated, call.program.estimated);
+  if (estimated.empty()) return;
+  Message message("G0724", std::to_string(estimated.size()) + " measures of the person are estimated, from size " +
+                               format_quantity(size, {}) + ": " + listed(estimated), call.expr.span);
+  message.diagnostic.severity = Severity::note;
+  report(call.program, std::move(message.help("state what you know, in the file or here, as in `thigh: 56 cm`")));
+}
+
 Value run_mannequin(Call& call) {
   design::Mannequin person;
   const auto* sex = call.arguments[0].as<std::string>();
@@ -89,6 +100,7 @@ Value run_mannequin(Call& call) {
                    span));
     person.measures[name] = x;
   }
+  note_estimates(call, person.size);
   return Value{ShapeValue{person}};
 }
 

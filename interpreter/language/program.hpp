@@ -177,6 +177,7 @@ struct Program {
   std::vector<bool> build_failed;
   std::map<int, body::Frame> frames;  ///< of mannequins, by body index
   std::deque<Part> parts;             ///< ThingValue::index of a `part` is its place here
+  std::vector<std::string> estimated;  ///< measures of the person being made that its record does not state
   std::set<int> placed;
   std::vector<Act> acts;
   std::size_t studies = 0;      ///< `vary` met so far

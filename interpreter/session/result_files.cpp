@@ -13,17 +13,18 @@ namespace garment::session {
 
 ResultFile make_result_file(const std::string& name, const design::Garment& garment,
                             const std::vector<body::Body>& bodies, const model::Model& model,
-                            const model::State& state) {
+                            const model::State& state, const io::PaperSize& paper) {
   std::filesystem::path path(name);
   std::string ending = path.extension().string();
   if (ending == ".obj") return {io::write_obj(model, state), "", ""};
   if (ending == ".glb") return {io::write_glb(model, state, bodies), "", ""};
   if (ending == ".ply") return {io::write_ply(model, state, results::vertex_strain(model, state)), "", ""};
   if (ending == ".csv") return {io::write_csv(model, state, results::vertex_strain(model, state)), "", ""};
+  if (ending == ".pdf") return {io::write_pattern_pdf(garment, &model, paper), "", ""};
   if (ending == ".svg") return {io::write_pattern_svg(garment, model), "", ""};
   if (ending == ".png") return {render::render_sheet(render::make_scene(model, state, bodies)), "", ""};
   return {std::nullopt, fmt::format("`save \"{}\"`: `{}` is no format that can be written", name, ending),
-          "use .obj, .glb, .ply, .svg, .png or .csv"};
+          "use .obj, .glb, .ply, .svg, .pdf, .png or .csv"};
 }
 
 }  // namespace garment::session

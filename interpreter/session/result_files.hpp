@@ -6,6 +6,7 @@
 
 #include "runtime/body/body.hpp"
 #include "runtime/design/garment.hpp"
+#include "runtime/io/pdf_writer.hpp"
 #include "runtime/model/model.hpp"
 
 namespace garment::session {
@@ -16,10 +17,10 @@ struct ResultFile {
   std::string message, help;
 };
 
-/// The file `name` of a garment as it lies: .obj, .glb, .ply, .svg, .png, .csv. Refuses other endings and names that leave
-/// the folder they are written in.
+/// The file `name` of a garment as it lies: .obj, .glb, .ply, .svg, .pdf, .png, .csv. Refuses other endings and names that leave
+/// the folder they are written in. `paper` is that of a .pdf.
 ResultFile make_result_file(const std::string& name, const design::Garment& garment,
                             const std::vector<body::Body>& bodies, const model::Model& model,
-                            const model::State& state);
+                            const model::State& state, const io::PaperSize& paper = {});
 
 }  // namespace garment::session

@@ -29,6 +29,34 @@ double extreme_height(double low, double high, double fallback, Extreme kind, co
   return inner ? best : fallback;
 }
 
+/// The middle of the heights about the smallest girth that are as good as it: a waist is often flat for centimetres.
+template <class Girth>
+double narrowest(double low, double high, double fallback, const Girth& girth_at) {
+  constexpr double kAsGood = 1.006;
+  const double least = extreme_height(low, high, fallback, Extreme::least, girth_at);
+  const double limit = kAsGood * girth_at(least);
+  double from = least, to = least;
+  while (from - kScan > low && girth_at(from - kScan) < limit) from -= kScan;
+  while (to + kScan < high && girth_at(to + kScan) < limit) to += kScan;
+  return 0.5 * (from + to);
+}
+
+/// Height of the fullest place of the chest: where the front stands out most, for girths grow towards the arms. Where the
+/// belly stands out farther, the largest girth all the same.
+double fullest(const TriangleMesh& mesh, const Landmarks& marks, double high) {
+  const double low = marks.height(0.69);
+  double best = low, most = -1e9;
+  for (double y = low; y <= high; y += kScan) {
+    const Loop hull = torso_hull(mesh, marks, y);
+    if (hull.size() < 3) continue;
+    const double front = -loop_low(hull).y();
+    if (front > most + 1e-6) most = front, best = y;
+  }
+  if (best > low) return best;
+  return extreme_height(low, high, std::min(marks.height(0.727), high), Extreme::most,
+                        [&](double y) { return perimeter(torso_hull(mesh, marks, y)); });
+}
+
 Part torso_part(const TriangleMesh& mesh, const Landmarks& marks, const std::string& name, double low,
                 double high, double spacing) {
   Part part{name, {}};
@@ -56,7 +84,8 @@ Part leg_part(const TriangleMesh& mesh, const Landmarks& marks, const std::strin
 }
 
 double neck_height(const TriangleMesh& mesh, const Landmarks& marks) {
-  return extreme_height(marks.height(0.82), marks.height(0.91), marks.height(0.86), Extreme::least,
+  const double high = std::min(marks.height(0.91), marks.top - 0.015);  // a neck that ends is no narrow one
+  return extreme_height(marks.height(0.82), high, std::min(marks.height(0.86), high), Extreme::least,
                         [&](double y) { return perimeter(torso_hull(mesh, marks, y)); });
 }
 
@@ -103,12 +132,10 @@ std::map<std::string, Level> find_levels(const TriangleMesh& mesh, const Landmar
   auto put_leg = [&](const char* name, double y) { put(name, y, leg_girth(y)); };
   double h = marks.stature, below_arms = marks.armpit - 0.005;
 
-  double waist = extreme_height(marks.height(0.58), marks.height(0.68), marks.height(0.644), Extreme::least,
-                                torso_girth);
+  double waist = narrowest(marks.height(0.58), marks.height(0.68), marks.height(0.644), torso_girth);
   double hip = extreme_height(marks.crotch + 0.01, marks.height(0.56), marks.height(0.516), Extreme::most,
                               torso_girth);
-  double bust = extreme_height(marks.height(0.69), std::min(marks.height(0.76), below_arms),
-                               std::min(marks.height(0.727), below_arms), Extreme::most, torso_girth);
+  double bust = fullest(mesh, marks, std::min(marks.height(0.76), below_arms));
   double knee = marks.height(0.277), ankle = marks.height(kAnkle);
   put_torso("head", extreme_height(marks.height(0.91), marks.height(0.98), marks.height(0.95), Extreme::most,
                                    torso_girth));

@@ -11,7 +11,8 @@ namespace garment::body {
 /// The places that everything else on a person is measured from, m.
 struct Landmarks {
   double base = 0;      ///< y of the soles
-  double stature = 0;   ///< height of the whole
+  double stature = 0;   ///< height of the whole person
+  double top = 0;       ///< y of the highest point
   double center_x = 0;  ///< of the plane of symmetry
   double crotch = 0;    ///< y where the legs part
   double armpit = 0;    ///< y where the arms part from the torso
@@ -19,8 +20,13 @@ struct Landmarks {
   double height(double fraction) const { return base + fraction * stature; }
 };
 
-/// Nothing where the mesh is no upright person: a size beyond 0.7 to 2.6 m, no two legs, no crotch, no torso.
-std::optional<Landmarks> find_landmarks(const TriangleMesh& mesh);
+/// What a mesh lacks that an upright person has, in the order in which it is looked for.
+enum class Lacking { nothing, stature, legs, crotch, torso };
+
+/// Nothing where the mesh is no upright person: a size beyond 0.7 to 2.6 m, no two legs, no crotch, no torso; `lacking`
+/// receives which. `stature` (m) is given for a body without a head, whose own height is not the person's.
+std::optional<Landmarks> find_landmarks(const TriangleMesh& mesh, std::optional<double> stature = std::nullopt,
+                                        Lacking* lacking = nullptr);
 
 /// Hull of the torso (neck, head) at height y in the plane `horizontal(y)`, without arms; empty if there is
 /// none.

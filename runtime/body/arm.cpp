@@ -10,6 +10,7 @@ namespace {
 constexpr double kStep = 0.01;       // m, between sections
 constexpr double kLookBack = 6;      // sections from which the direction is taken
 constexpr double kMaxArea = 0.035;   // m^2, more is no arm
+constexpr double kPalm = 1.04;       // girth of a palm against the wrist's, at least
 constexpr double kMinArea = 0.0004;  // m^2, less is a finger
 
 struct Seed {
@@ -122,6 +123,10 @@ std::vector<Section> trace_arm(const TriangleMesh& mesh, const Landmarks& marks,
   *wrist = n * 60 / 100;
   for (std::size_t i = *wrist; i < n * 85 / 100; ++i)
     if (girth(i) < girth(*wrist)) *wrist = i;
+  // Beyond a wrist the palm is broader; where nothing is, the arm was cut off at the wrist.
+  double palm = 0;
+  for (std::size_t i = *wrist; i < n; ++i) palm = std::max(palm, girth(i));
+  if (palm < kPalm * girth(*wrist)) *wrist = n - 1;
   // Up to the shoulder joint the arm lies in the body: its first whole section is carried on.
   std::size_t ahead = static_cast<std::size_t>(0.045 * marks.stature / kStep);
   std::vector<Section> sections(ahead, all.front());

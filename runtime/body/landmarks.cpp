@@ -37,6 +37,26 @@ double half_breadth(const Loop& loop, double center_x) {
   return std::max(loop_high(loop).x() - center_x, center_x - loop_low(loop).x());
 }
 
+/// An arm that hangs close to the trunk grows into it by little and little: the armpit is where its own loop ends, going up.
+bool find_hanging_arms(const TriangleMesh& mesh, Landmarks& marks, double low, double high) {
+  constexpr double kLeastArm = 0.0015, kMostArm = 0.02;  // m^2
+  for (double y = high; y > low; y -= kStep) {
+    const std::optional<Loop> trunk = trunk_at(mesh, marks.center_x, y);
+    if (!trunk) continue;
+    const double half = half_breadth(*trunk, marks.center_x);
+    bool arm[2] = {false, false};
+    for (const Loop& loop : slice(mesh, horizontal(y))) {
+      const double x = loop_centroid(loop).x() - marks.center_x, area = std::fabs(loop_area(loop));
+      if (area > kLeastArm && area < kMostArm && std::fabs(x) > 0.9 * half) arm[x > 0] = true;
+    }
+    if (!arm[0] || !arm[1]) continue;
+    marks.armpit = y;
+    marks.reach = half;
+    return true;
+  }
+  return false;
+}
+
 /// First height, going up, where the trunk's loop takes the arms in: it grows by an arm on both sides.
 void find_armpit(const TriangleMesh& mesh, Landmarks& marks) {
   constexpr double kStep1 = 0.01, kJump = 0.04;
@@ -57,6 +77,7 @@ void find_armpit(const TriangleMesh& mesh, Landmarks& marks) {
     }
     before = std::move(here);
   }
+  if (find_hanging_arms(mesh, marks, low, high)) return;
   // No arms (a dress form): the usual place of the armpit, and the broadest of what is above it.
   marks.armpit = marks.height(0.76);
   for (double y = marks.armpit; y < high; y += kStep1)
@@ -66,16 +87,21 @@ void find_armpit(const TriangleMesh& mesh, Landmarks& marks) {
 
 }  // namespace
 
-std::optional<Landmarks> find_landmarks(const TriangleMesh& mesh) {
-  if (mesh.vertices.empty()) return std::nullopt;
+std::optional<Landmarks> find_landmarks(const TriangleMesh& mesh, std::optional<double> stature, Lacking* lacking) {
+  auto none = [&](Lacking what) -> std::optional<Landmarks> {
+    if (lacking != nullptr) *lacking = what;
+    return std::nullopt;
+  };
+  if (mesh.vertices.empty()) return none(Lacking::stature);
   Landmarks marks;
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const Vector3d& p : mesh.vertices) low = std::min(low, p.y()), high = std::max(high, p.y());
   marks.base = low;
-  marks.stature = high - low;
-  if (!(marks.stature >= kLeastStature && marks.stature <= kMostStature)) return std::nullopt;
+  marks.top = high;
+  marks.stature = stature.value_or(high - low);
+  if (!(marks.stature >= kLeastStature && marks.stature <= kMostStature)) return none(Lacking::stature);
   std::optional<LegPair> legs = legs_at(mesh, marks.height(0.30));
-  if (!legs || legs->left - legs->right < 0.03 * marks.stature) return std::nullopt;
+  if (!legs || legs->left - legs->right < 0.03 * marks.stature) return none(Lacking::legs);
   marks.center_x = 0.5 * (legs->left + legs->right);
   for (double y = marks.height(0.36); y < marks.height(0.60); y += kStep) {
     std::optional<Loop> trunk = trunk_at(mesh, marks.center_x, y);
@@ -84,8 +110,10 @@ std::optional<Landmarks> find_landmarks(const TriangleMesh& mesh) {
       break;
     }
   }
-  if (marks.crotch == 0 || !trunk_at(mesh, marks.center_x, marks.height(0.64))) return std::nullopt;
+  if (marks.crotch == 0) return none(Lacking::crotch);
+  if (!trunk_at(mesh, marks.center_x, marks.height(0.64))) return none(Lacking::torso);
   find_armpit(mesh, marks);
+  if (lacking != nullptr) *lacking = Lacking::nothing;
   return marks;
 }
 

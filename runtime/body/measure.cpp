@@ -23,6 +23,7 @@ Landmarks known_landmarks(const Body& body) {
   Landmarks marks;
   Extent e = extent_of(body.mesh);
   marks.base = e.low;
+  marks.top = e.high;
   marks.stature = e.high - e.low;
   marks.crotch = body.levels.at("crotch").height;
   marks.armpit = body.levels.at("armpit").height;

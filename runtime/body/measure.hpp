@@ -1,5 +1,5 @@
 #pragma once
-// Girths at any height, and the table that `garment measure` prints.
+// Girths at any height, and the levels of a body in a row.
 #include <string>
 #include <vector>
 

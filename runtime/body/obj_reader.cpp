@@ -35,8 +35,8 @@ std::string shown(std::string_view text) {
 
 class ObjReader {
  public:
-  ObjReader(std::string_view text, double scale, const std::string& name, OriginId origin)
-      : text_(text), scale_(scale), name_(name), origin_(origin) {}
+  ObjReader(std::string_view text, double scale, const std::string& name, OriginId origin, bool as_is = false)
+      : text_(text), scale_(scale), name_(name), origin_(origin), as_is_(as_is) {}
 
   MeshResult run() {
     if (text_.size() > kMaxObjBytes)
@@ -131,6 +131,8 @@ class ObjReader {
     if (mesh_.triangles.empty()) {
       fail("G0702", fmt::format("all {} triangles of `{}` are without area", dropped, name_),
            "export the body as Wavefront OBJ with its faces");
+    } else if (as_is_) {
+      result_.mesh = std::move(mesh_);
     } else if (check.open_edges > 0) {
       fail("G0705",
            fmt::format(
@@ -202,6 +204,7 @@ class ObjReader {
   double scale_;
   const std::string& name_;
   OriginId origin_;
+  bool as_is_;
   TriangleMesh mesh_;
   std::vector<int> corners_;
   Findings remarks_;
@@ -213,6 +216,10 @@ class ObjReader {
 
 MeshResult read_obj(std::string_view text, double scale, const std::string& name, OriginId origin) {
   return ObjReader(text, scale, name, origin).run();
+}
+
+MeshResult read_obj_as_is(std::string_view text, const std::string& name) {
+  return ObjReader(text, 1, name, OriginId{}, true).run();
 }
 
 }  // namespace garment::body

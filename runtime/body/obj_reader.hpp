@@ -31,4 +31,8 @@ struct MeshResult {
 /// like centimetres or millimetres.
 MeshResult read_obj(std::string_view text, double scale, const std::string& name, OriginId origin);
 
+/// The same of a surface that is only looked at: it may be open, its faces may disagree, its unit is the file's. Errors:
+/// G0702, G0703, G0704.
+MeshResult read_obj_as_is(std::string_view text, const std::string& name);
+
 }  // namespace garment::body

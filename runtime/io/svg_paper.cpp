@@ -42,8 +42,6 @@ std::string style(const Pen& pen) {
 
 }  // namespace
 
-void SvgPaper::line(const Point& a, const Point& b, const Pen& pen) { polyline({a, b}, false, pen); }
-
 void SvgPaper::polyline(const std::vector<Point>& points, bool closed, const Pen& pen) {
   if (points.size() < 2) return;
   body_ += "<path d=\"";

@@ -54,7 +54,7 @@ run 0 --help
 says "examples:"
 says "exit codes: 0 ok, 1 diagnostics, 2 usage"
 silent err.txt
-for command in run check model parse fmt import test explain; do
+for command in run check model parse fmt import measure test explain; do
   run 0 $command --help
   says "Usage: garment $command"
 done
@@ -273,6 +273,58 @@ exists saves_out/cloth.obj
 sed 's/^expect.*/save "cloth.docx"/' square.garment >saves.garment
 run 1 check saves.garment
 complains "error[G0905]"
+
+# ---- measures of bodies
+cat >worn.garment <<'EOT'
+garment 1 "worn"
+use fabrics, bodies
+body form = bodies.woman(size: 40)
+panel cloth of fabrics.linen {
+  outline circle((0, 0), 5 cm) free
+}
+place cloth at (2 m, 1 m, 0)
+save "worn.pdf"
+EOT
+run 0 run worn.garment --no-pictures -o worn_out --paper A3
+exists worn_out/body.obj
+exists worn_out/worn.pdf
+run 2 run worn.garment --paper A44
+complains "no paper"
+run 0 measure worn_out/body.obj --picture measured.png
+says "stature                          168.0"
+says "back_length"
+exists measured.png
+no_leftovers .
+run 0 measure worn_out/body.obj --json
+is_json out.txt
+run 0 measure worn_out/body.obj --csv --unit mm
+says "body,measure,height [mm],size [mm]"
+cp out.txt straight.csv
+run 0 measure worn.garment
+says "stated"
+# The same body in millimetres along z, looking back.
+awk '/^v /{print "v", -$2*1000, $4*1000, $3*1000; next} /^v[nt]/{next} {print}' worn_out/body.obj >turned.obj
+run 0 measure turned.obj --csv --unit mm
+complains "note[G0715]"
+complains "note[G0716]"
+sed 's/^[^,]*,//' out.txt >turned.txt
+sed 's/^[^,]*,//' straight.csv >straight.txt
+ok
+paste -d, straight.txt turned.txt | awk -F, 'NR > 1 && (($2 - $5)^2 > 1 || ($3 - $6)^2 > 1 || $1 != $4) {bad = 1} END {exit bad}' || fail "a turned body has other measures"
+awk '/^f /{if (++n % 900 == 5) next} {print}' worn_out/body.obj >torn.obj
+run 0 measure torn.obj
+complains "note[G0718]"
+awk '/^v /{high[++n] = $4 < -9 || $3 > 1.46} /^f /{for (k = 2; k <= NF; ++k) {split($k, i, "/"); if (high[i[1]]) next}} {print}' worn_out/body.obj >headless.obj
+run 0 measure headless.obj
+complains "note[G0717]"
+awk '/^v /{far[++n] = ($2 > 0.24 || $2 < -0.24) && $3 > 0.7} /^f /{for (k = 2; k <= NF; ++k) {split($k, i, "/"); if (far[i[1]]) next}} {print}' worn_out/body.obj >armless.obj
+run 0 measure armless.obj
+complains "note[G0719]"
+printf 'v 0 0 0\nv 1 0 0\nv 0 1.7 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n' >wedge.obj
+run 1 measure wedge.obj
+complains "error[G0714]"
+run 3 measure nobody.obj
+complains "error[G0901]"
 
 # ---- a table of the drape, and formats still to come
 sed 's/^expect.*/save "cloth.csv"/' square.garment >saves.garment

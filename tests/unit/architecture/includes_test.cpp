@@ -79,7 +79,7 @@ Names reachable(const Table& table, const std::string& room) {
 const std::map<std::string, std::string> kLibraries = {
     {"fmt", "fmt"},        {"Eigen", "Eigen"},  {"tbb", "oneTBB"},
     {"oneapi", "oneTBB"},  {"tao", "PEGTL"},    {"fcl", "FCL"},
-    {"embree3", "Embree"}, {"png.h", "libpng"}, {"nlohmann", "nlohmann-json"},
+    {"embree3", "Embree"}, {"png.h", "libpng"}, {"nlohmann", "nlohmann-json"}, {"pugixml", "pugixml"}, {"hpdf.h", "libharu"},
     {"CLI", "CLI11"},      {"histedit.h", "libedit"},
 };
 

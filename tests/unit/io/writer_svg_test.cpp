@@ -4,7 +4,7 @@
 
 #include "runtime/base/number.hpp"
 #include "runtime/io/cut_lines.hpp"
-#include "runtime/io/svg_panel.hpp"
+#include "runtime/io/panel_drawing.hpp"
 #include "runtime/io/svg_writer.hpp"
 #include "tests/support/skirt_pattern.hpp"
 
@@ -103,7 +103,7 @@ TEST_CASE("many panels of odd sizes never overlap", "[writer]") {
 TEST_CASE("darts are cut away from the drawn outline on either sense of the loop", "[writer]") {
   design::Panel panel = test::make_skirt_panel("front", 0.09);
   auto apexes_inside = [](const design::Panel& p) {
-    const io::SvgPanel drawn(p, {}, {}, {0.5, 0.5, 0.5});
+    const io::PanelDrawing drawn(p, {}, {}, {0.5, 0.5, 0.5});
     int n = 0;
     double lowest = 1e9, highest = -1e9;
     for (const Point& q : drawn.outline()) {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "runtime/design/garment.hpp"
-#include "runtime/io/svg_paper.hpp"
+#include "runtime/io/paper.hpp"
 
 namespace garment::io {
 
@@ -16,17 +16,17 @@ struct SeamTag {
   double from = 0, to = 0;  ///< arc lengths in sewing order, m
 };
 
-class SvgPanel {
+class PanelDrawing {
  public:
   /// `facts` are printed under the name.
-  SvgPanel(const design::Panel& panel, std::vector<SeamTag> tags, std::vector<std::string> facts,
+  PanelDrawing(const design::Panel& panel, std::vector<SeamTag> tags, std::vector<std::string> facts,
            const std::array<double, 3>& color);
 
   /// Room it takes, with its letters, mm.
   Point size() const { return room_.size(); }
 
   /// Draws it with the upper left corner of its room at `corner`.
-  void draw(SvgPaper& paper, const Point& corner) const;
+  void draw(Paper& paper, const Point& corner) const;
 
   /// Outline in mm with darts cut away, y up, in the panel's own coordinates.
   const std::vector<Point>& outline() const { return outline_; }
@@ -51,16 +51,16 @@ class SvgPanel {
   void collect_darts();
   void collect_outline();
   Point inward(int edge, double at) const;
-  void draw_outline(SvgPaper& paper, const Placed& on) const;
-  void draw_notches(SvgPaper& paper, const Placed& on) const;
-  void draw_edge_names(SvgPaper& paper, const Placed& on) const;
-  void draw_tags(SvgPaper& paper, const Placed& on) const;
-  void draw_middle(SvgPaper& paper, const Placed& on) const;
-  void draw_interior(SvgPaper& paper, const Placed& on) const;
-  void draw_allowances(SvgPaper& paper, const Placed& on) const;
-  void draw_lenses(SvgPaper& paper, const Placed& on) const;
-  void draw_pleats(SvgPaper& paper, const Placed& on) const;
-  void draw_grain(SvgPaper& paper, const Placed& on, const Point& through) const;
+  void draw_outline(Paper& paper, const Placed& on) const;
+  void draw_notches(Paper& paper, const Placed& on) const;
+  void draw_edge_names(Paper& paper, const Placed& on) const;
+  void draw_tags(Paper& paper, const Placed& on) const;
+  void draw_middle(Paper& paper, const Placed& on) const;
+  void draw_interior(Paper& paper, const Placed& on) const;
+  void draw_allowances(Paper& paper, const Placed& on) const;
+  void draw_lenses(Paper& paper, const Placed& on) const;
+  void draw_pleats(Paper& paper, const Placed& on) const;
+  void draw_grain(Paper& paper, const Placed& on, const Point& through) const;
 
   const design::Panel& panel_;
   std::vector<SeamTag> tags_;

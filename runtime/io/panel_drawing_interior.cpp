@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "runtime/io/cut_lines.hpp"
-#include "runtime/io/svg_panel.hpp"
+#include "runtime/io/panel_drawing.hpp"
 
 namespace garment::io {
 namespace {
@@ -35,11 +35,11 @@ Point beside(const geometry::Curve& curve, double share) {
 
 }  // namespace
 
-void SvgPanel::draw_allowances(SvgPaper& paper, const Placed& on) const {
+void PanelDrawing::draw_allowances(Paper& paper, const Placed& on) const {
   for (const CutLine& line : cut_lines(panel_)) paper.polyline(on(mm_of(line)), true, kAllowance);
 }
 
-void SvgPanel::draw_interior(SvgPaper& paper, const Placed& on) const {
+void PanelDrawing::draw_interior(Paper& paper, const Placed& on) const {
   for (const design::Hole& hole : panel_.holes) {
     std::vector<Point> rim;
     for (int k = hole.first; k < hole.first + hole.count; ++k) {
@@ -69,7 +69,7 @@ void SvgPanel::draw_interior(SvgPaper& paper, const Placed& on) const {
   draw_pleats(paper, on);
 }
 
-void SvgPanel::draw_lenses(SvgPaper& paper, const Placed& on) const {
+void PanelDrawing::draw_lenses(Paper& paper, const Placed& on) const {
   for (const design::InsideDart& dart : panel_.inside_darts) {
     const Point from = mm_of(dart.from), to = mm_of(dart.to), along = to - from;
     const Point middle = from + dart.at * along, side = 500 * dart.width * Point(-along[1], along[0]).normalized();
@@ -81,7 +81,7 @@ void SvgPanel::draw_lenses(SvgPaper& paper, const Placed& on) const {
   }
 }
 
-void SvgPanel::draw_pleats(SvgPaper& paper, const Placed& on) const {
+void PanelDrawing::draw_pleats(Paper& paper, const Placed& on) const {
   constexpr double kShown = 60;  // mm of a pleat that is only held at its edge
   for (const design::Pleat& pleat : panel_.pleats)
     for (std::size_t e = 0; e < panel_.edges.size(); ++e) {

@@ -1,4 +1,4 @@
-#include "runtime/io/svg_panel.hpp"
+#include "runtime/io/panel_drawing.hpp"
 
 #include <fmt/format.h>
 
@@ -69,7 +69,7 @@ Chord roomiest(const std::vector<Point>& polygon) {
 
 }  // namespace
 
-SvgPanel::SvgPanel(const design::Panel& panel, std::vector<SeamTag> tags, std::vector<std::string> facts,
+PanelDrawing::PanelDrawing(const design::Panel& panel, std::vector<SeamTag> tags, std::vector<std::string> facts,
                    const std::array<double, 3>& color)
     : panel_(panel), tags_(std::move(tags)), facts_(std::move(facts)) {
   auto pale = [](double c) { return static_cast<int>(255 * (0.86 + 0.14 * std::clamp(c, 0.0, 1.0)) + 0.5); };
@@ -92,11 +92,11 @@ SvgPanel::SvgPanel(const design::Panel& panel, std::vector<SeamTag> tags, std::v
   room_.high += Point(kMargin, kMargin);
 }
 
-Point SvgPanel::inward(int edge, double at) const {
+Point PanelDrawing::inward(int edge, double at) const {
   return side_ * left_of(panel_.edges[edge].curve.tangent_at(at));
 }
 
-void SvgPanel::collect_darts() {
+void PanelDrawing::collect_darts() {
   for (const design::EdgeDart& d : panel_.darts) {
     const auto e = std::find_if(panel_.edges.begin(), panel_.edges.end(),
                                 [&](const design::Edge& edge) { return edge.name == d.edge; });
@@ -113,7 +113,7 @@ void SvgPanel::collect_darts() {
                    [](const Dart& a, const Dart& b) { return a.from < b.from; });
 }
 
-void SvgPanel::collect_outline() {
+void PanelDrawing::collect_outline() {
   for (std::size_t e = 0; e < panel_.edges.size(); ++e) {
     std::vector<double> at;
     const std::vector<design::Point2> points = panel_.edges[e].curve.polyline(kChord, &at);
@@ -133,7 +133,7 @@ void SvgPanel::collect_outline() {
   }
 }
 
-void SvgPanel::draw(SvgPaper& paper, const Point& corner) const {
+void PanelDrawing::draw(Paper& paper, const Point& corner) const {
   if (outline_.size() < 3) return;
   const Placed on{Point(corner[0] - room_.low[0], corner[1] + room_.high[1])};
   paper.begin_group(panel_.name);
@@ -147,7 +147,7 @@ void SvgPanel::draw(SvgPaper& paper, const Point& corner) const {
   paper.end_group();
 }
 
-void SvgPanel::draw_outline(SvgPaper& paper, const Placed& on) const {
+void PanelDrawing::draw_outline(Paper& paper, const Placed& on) const {
   Pen pen = kCut;
   pen.fill = tint_;
   paper.polyline(on(outline_), true, pen);
@@ -167,12 +167,13 @@ void SvgPanel::draw_outline(SvgPaper& paper, const Placed& on) const {
   }
 }
 
-void SvgPanel::draw_notches(SvgPaper& paper, const Placed& on) const {
+void PanelDrawing::draw_notches(Paper& paper, const Placed& on) const {
   for (const design::Notch& n : panel_.notches)
     for (std::size_t e = 0; e < panel_.edges.size(); ++e) {
       if (panel_.edges[e].name != n.edge) continue;
       const Point p = mm_of(panel_.edges[e].curve.point_at(n.at)), in = inward(static_cast<int>(e), n.at);
-      paper.line(on(p), on(p + kNotch * in), kMark);
+      const double beyond = 1000 * panel_.edges[e].allowance;  // to the cut line, where scissors find it
+      paper.line(on(p - beyond * in), on(p + kNotch * in), kMark);
       paper.text(on(p + (kNotch + 3) * in), n.name,
                  {3,
                   in[0] > 0.3    ? Anchor::start
@@ -182,7 +183,7 @@ void SvgPanel::draw_notches(SvgPaper& paper, const Placed& on) const {
     }
 }
 
-void SvgPanel::draw_edge_names(SvgPaper& paper, const Placed& on) const {
+void PanelDrawing::draw_edge_names(Paper& paper, const Placed& on) const {
   for (std::size_t e = 0; e < panel_.edges.size(); ++e) {
     const geometry::Curve& curve = panel_.edges[e].curve;
     const double length = curve.length();
@@ -203,7 +204,7 @@ void SvgPanel::draw_edge_names(SvgPaper& paper, const Placed& on) const {
   }
 }
 
-void SvgPanel::draw_tags(SvgPaper& paper, const Placed& on) const {
+void PanelDrawing::draw_tags(Paper& paper, const Placed& on) const {
   const Pen ring{"#b03a2e", 0.4, "", "#fff"}, arrow{"#b03a2e", 0.3, "", "#b03a2e"},
       bound{"#b03a2e", 0.5, "", "none"};
   for (const SeamTag& tag : tags_) {
@@ -225,7 +226,7 @@ void SvgPanel::draw_tags(SvgPaper& paper, const Placed& on) const {
   }
 }
 
-void SvgPanel::draw_grain(SvgPaper& paper, const Placed& on, const Point& through) const {
+void PanelDrawing::draw_grain(Paper& paper, const Placed& on, const Point& through) const {
   const Point d(-portable::sin(panel_.grain_angle), portable::cos(panel_.grain_angle));
   const std::vector<double> at = crossings(outline_, through, d);
   double low = 0, high = 0;
@@ -247,7 +248,7 @@ void SvgPanel::draw_grain(SvgPaper& paper, const Placed& on, const Point& throug
                    true, pen);
 }
 
-void SvgPanel::draw_middle(SvgPaper& paper, const Placed& on) const {
+void PanelDrawing::draw_middle(Paper& paper, const Placed& on) const {
   const Chord room = roomiest(outline_);
   std::size_t longest = panel_.name.size();
   for (const std::string& f : facts_) longest = std::max(longest, (f.size() * 2 + 2) / 3);
