@@ -288,6 +288,7 @@ class PanelReader {
       return;
     }
     if (area > 0) return;
+    out_.back = true;
     for (design::Edge& edge : out_.panel.edges) edge.curve = edge.curve.mirrored_x(0);
     Eigen::Matrix3d& R = out_.panel.placement.rotation;
     R.col(0) = -R.col(0);  // R Ry(180 deg)

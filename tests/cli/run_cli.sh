@@ -54,7 +54,7 @@ run 0 --help
 says "examples:"
 says "exit codes: 0 ok, 1 diagnostics, 2 usage"
 silent err.txt
-for command in run check model parse fmt import test explain; do
+for command in run check model parse fmt import export test explain; do
   run 0 $command --help
   says "Usage: garment $command"
 done
@@ -377,7 +377,25 @@ if [ -n "$spec" ]; then
   run 3 import "$spec" -o plain_file/imported.garment
   complains "error[G0902]"
   run 0 fmt --check imported.garment
+  # Back again: from the specification, and by way of the script.
+  run 0 import "$spec" -o again.json
+  run 0 export "$spec" -o at_once.json
+  run 0 export imported.garment -o by_script.json
+  for made in again at_once by_script; do
+    python3 - "$spec" "$made.json" <<'PY' || fail "$made.json is not $spec"
+import json, sys
+def same(a, b):
+    if isinstance(a, (int, float)) and isinstance(b, (int, float)): return abs(a - b) <= 1e-6
+    if isinstance(a, dict) and isinstance(b, dict): return a.keys() == b.keys() and all(same(a[k], b[k]) for k in a)
+    if isinstance(a, list) and isinstance(b, list): return len(a) == len(b) and all(map(same, a, b))
+    return a == b
+sys.exit(not same(*(json.load(open(f)) for f in sys.argv[1:3])))
+PY
+  done
 fi
+run 2 export square.garment -o square.pdf
+complains "error[G0907]"
+absent square.pdf
 printf '{"pattern": [}' >broken.json
 run 1 import broken.json -o broken.garment
 complains "error[G0940]"

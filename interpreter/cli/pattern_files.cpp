@@ -1,0 +1,50 @@
+#include "interpreter/cli/pattern_files.hpp"
+
+#include <filesystem>
+
+#include "runtime/io/pattern_layout.hpp"
+#include "runtime/io/pattern_writer.hpp"
+#include "runtime/io/svg_writer.hpp"
+
+namespace garment::cli {
+namespace {
+
+PatternFile read_specification(std::string_view bytes, const PatternFileOptions& options) {
+  io::PatternOptions pattern_options;
+  pattern_options.title = options.title;
+  pattern_options.fabric = io::import_fabric();
+  io::PatternResult read = io::read_pattern(bytes, pattern_options);
+  PatternFile file;
+  file.garment = std::move(read.garment);
+  file.layout = std::move(read.layout);
+  file.frame = read.frame;
+  file.findings = std::move(read.findings);
+  file.notes = std::move(read.notes);
+  return file;
+}
+
+}  // namespace
+
+std::string ending_of(const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  for (char& c : ending)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return ending;
+}
+
+bool is_pattern_ending(const std::string& ending) { return ending == ".json"; }
+
+PatternFile read_pattern_file(const std::string&, std::string_view bytes, const PatternFileOptions& options) {
+  return read_specification(bytes, options);
+}
+
+PatternBytes write_pattern_file(const std::string& ending, const design::Garment& garment, const io::PatternLayout* layout) {
+  if (ending == ".json") {
+    io::PatternText written = io::write_pattern_json(garment, layout);
+    return {std::move(written.text), std::move(written.findings)};
+  }
+  if (ending == ".svg") return {io::write_pattern_svg(garment), {}};
+  return {};
+}
+
+}  // namespace garment::cli
