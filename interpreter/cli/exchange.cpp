@@ -102,7 +102,10 @@ ExitCode write_script(const ImportOptions& options, const std::string& out, Patt
   if (file.layout)
     unparse_options.trailer =
         trailer(*file.layout, *file.garment, unparse_options.body.empty() ? std::string() : unparse_options.body_name);
-  if (!file.frame) unparse_options.acts.clear();  // flat pieces: nothing is sewn yet
+  if (!file.frame) {  // flat pieces: nothing is sewn yet
+    unparse_options.acts.clear();
+    unparse_options.comments = file.notes;
+  }
   if (ExitCode code = write(out, interpreter::unparse(*file.garment, unparse_options), host, terminal); code != kOk)
     return code;
   terminal.note(fmt::format("{}: {}, {}", out, plural(file.garment->panels.size(), "panel"),

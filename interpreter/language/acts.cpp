@@ -247,14 +247,15 @@ void run_save(Program& program, const Item& item) {
            Message("G0309", "`" + path + "` has no extension; the kind of file is known by it", operand.span)
                .help("as in `save \"skirt.glb\"`"));
     const std::string_view kind = std::string_view(path).substr(dot);
-    for (const char* later : {".pdf", ".dxf", ".vtk", ".html"})
+    for (const char* later : {".pdf", ".vtk", ".html"})
       if (kind == later)
         fail(program, Message("G0905", "`" + std::string(kind) + "` cannot be written yet", operand.span)
-                          .help("use .obj, .glb, .ply, .svg, .png or .csv"));
-    if (kind != ".csv" && kind != ".obj" && kind != ".glb" && kind != ".ply" && kind != ".svg" && kind != ".png")
+                          .help("use .obj, .glb, .ply, .svg, .dxf, .json, .png or .csv"));
+    if (kind != ".csv" && kind != ".obj" && kind != ".glb" && kind != ".ply" && kind != ".svg" && kind != ".png" &&
+        kind != ".dxf" && kind != ".json")
       fail(program,
            Message("G0905", "`" + std::string(kind) + "` is no format that can be written", operand.span)
-               .help("use .obj, .glb, .ply, .svg, .png or .csv"));
+               .help("use .obj, .glb, .ply, .svg, .dxf, .json, .png or .csv"));
   }
   if (act.paths.empty())
     fail(program, Message("G0312", "`save` needs a file name in quotes", statement.keyword.span));

@@ -16,7 +16,7 @@ struct ResultFile {
   std::string message, help;
 };
 
-/// The file `name` of a garment as it lies: .obj, .glb, .ply, .svg, .png, .csv. Refuses other endings and names that leave
+/// The file `name` of a garment as it lies: .obj, .glb, .ply, .svg, .dxf, .json, .png, .csv. Refuses other endings and names that leave
 /// the folder they are written in.
 ResultFile make_result_file(const std::string& name, const design::Garment& garment,
                             const std::vector<body::Body>& bodies, const model::Model& model,

@@ -44,12 +44,14 @@ std::string style(const Pen& pen) {
 
 void SvgPaper::line(const Point& a, const Point& b, const Pen& pen) { polyline({a, b}, false, pen); }
 
-void SvgPaper::polyline(const std::vector<Point>& points, bool closed, const Pen& pen) {
+void SvgPaper::polyline(const std::vector<Point>& points, bool closed, const Pen& pen,
+                        const std::vector<std::pair<std::string, std::string>>& data) {
   if (points.size() < 2) return;
   body_ += "<path d=\"";
   for (std::size_t k = 0; k < points.size(); ++k)
     body_ += (k == 0 ? "M" : "L") + mm(points[k][0]) + ' ' + mm(points[k][1]);
   body_ += closed ? "Z\"" : "\"";
+  for (const auto& [name, value] : data) body_ += ' ' + name + "=\"" + escaped(value) + '"';
   body_ += style(pen) + "/>\n";
 }
 

@@ -39,7 +39,9 @@ struct Lettering {
 class SvgPaper {
  public:
   void line(const Point& a, const Point& b, const Pen& pen);
-  void polyline(const std::vector<Point>& points, bool closed, const Pen& pen);
+  /// `data`: pairs of an attribute's name and its value, for readers of the file.
+  void polyline(const std::vector<Point>& points, bool closed, const Pen& pen,
+                const std::vector<std::pair<std::string, std::string>>& data = {});
   void circle(const Point& center, double radius, const Pen& pen);
   /// `at` is the middle of the letters' height.
   void text(const Point& at, std::string_view text, const Lettering& lettering);
