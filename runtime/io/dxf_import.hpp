@@ -1,6 +1,6 @@
 #pragma once
 // AAMA-292 and ASTM D6673 DXF into a declared garment: a panel of each piece of one size. What is read, how it is mapped and
-// what is guessed: docs/import.md.
+// what is guessed: docs/formats.md.
 #include <optional>
 #include <string>
 #include <string_view>

@@ -1,7 +1,7 @@
 #pragma once
 // Reader of sewing patterns in JSON: panels with curved edges, stitches, placement. Both editions of the
 // format that GarmentCode (the newer) and Garment-Pattern-Generator (the older) write. What is read, how it
-// is mapped and what is guessed: docs/import.md.
+// is mapped and what is guessed: docs/formats.md.
 #include <cstddef>
 #include <memory>
 #include <optional>

@@ -23,6 +23,7 @@ using nlohmann::json;
 using nlohmann::ordered_json;
 
 constexpr double kSameVertex = 2e-6;  // m; the reader takes vertices within 1e-6 m as one
+constexpr double kLeftOut = 2e-4;     // m, of vertices of edges that it leaves out: they moved together
 constexpr double kSamePlace = 1e-7;   // m, of control points, sagittas and places
 
 /// Ten decimals of the file's unit: what is a round number there prints as one.
@@ -137,13 +138,17 @@ class PanelWriter {
         put(e.start, curve.start());
         put(e.end, curve.end());
       }
+    std::vector<double> reach(n, kSameVertex);
+    for (const EdgeLayout& e : own_.edges)
+      if (e.outline < 0)
+        for (int v : {e.start, e.end}) reach[static_cast<std::size_t>(v)] = kLeftOut;
     for (std::size_t v = 0; v < n; ++v) {
       const json* words = said(own_.vertices, v);
       if (!words) continue;
       const auto x = number_at(*words, 0, 1e9), y = number_at(*words, 1, 1e9);
       if (!x || !y) continue;
       const Point2 stated(*x, *y);
-      if (!known[v] || (stated - vertices_[v]).norm() <= kSameVertex * units_.per_metre) vertices_[v] = stated;
+      if (!known[v] || (stated - vertices_[v]).norm() <= reach[v] * units_.per_metre) vertices_[v] = stated;
     }
   }
 

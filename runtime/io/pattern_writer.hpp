@@ -1,6 +1,6 @@
 #pragma once
 // Writer of sewing patterns in JSON, the format that pattern_json reads. What is kept of a file that was read, and what goes
-// into the block `garment`: docs/import.md.
+// into the block `garment`: docs/formats.md.
 #include <nlohmann/json.hpp>
 #include <string>
 

@@ -1,5 +1,5 @@
 #pragma once
-// Closed paths of a drawing as panels. What is read, how it is mapped and what is guessed: docs/import.md.
+// Closed paths of a drawing as panels. What is read, how it is mapped and what is guessed: docs/formats.md.
 #include <optional>
 #include <string>
 #include <string_view>

@@ -156,7 +156,7 @@ class Wild {
     }
     if (chance(0.15)) {  // one corner twice, with an edge of no length between
       const int v = number[1];
-      out["vertices"].push_back({points[1][0] + 1e-7 * unit_, points[1][1]});
+      out["vertices"].push_back({points[1][0] + (chance(0.5) ? 1e-7 : 6e-5) * unit_, points[1][1]});
       const int twin = static_cast<int>(out["vertices"].size()) - 1;
       if (edges[1]["endpoints"][0] == v) {
         edges[1]["endpoints"][0] = twin;

@@ -101,7 +101,7 @@ const Fault kFaults[] = {
     {"/properties/units_in_meter", "-100", "G0950", "is -100"},
     {"/properties/units_in_meter", "\"cm\"", "G0950", "the text `cm`"},
     {"/properties/units_in_meter", "1e-9", "G0950", "1e-09"},
-    {"/properties/units_in_meter", "1e6", "G0952", "encloses"},
+    {"/properties/units_in_meter", "1e5", "G0952", "encloses"},
 };
 
 /// Changes that are said and survived.
