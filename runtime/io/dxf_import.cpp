@@ -34,7 +34,7 @@ struct Unit {
   const char* name = "mm";
 };
 constexpr Unit kUnits[] = {{1e-3, "mm"}, {1e-2, "cm"}, {0.0254, "inch"}, {1, "m"}, {1e-4, "tenths of a millimetre"}};
-constexpr double kSmallest = 0.04, kLargest = 4;  // m: what the largest piece of a style measures
+constexpr double kSmallest = 0.15, kLargest = 4;  // m: what the largest piece of a style measures
 
 void scale(DxfPiece& piece, double factor) {
   for (auto& [layer, list] : piece.courses)
@@ -92,6 +92,8 @@ class PieceReader {
   /// The largest closed course of a layer, its ends up to `gap` apart; the other closed ones go into `rest`.
   std::optional<DxfCourse> largest(DxfLayer layer, double gap, std::vector<DxfCourse>* rest) {
     std::vector<DxfCourse> all = chained(piece_.courses[layer]);
+    // Rounded to hundredths of an inch, ends lie a quarter of a millimetre apart.
+    if (std::none_of(all.begin(), all.end(), [](const DxfCourse& c) { return c.closed; })) all = chained(all, 1e-3);
     std::size_t best = all.size();
     double most = 0;
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -119,8 +121,8 @@ class PieceReader {
       skip(piece_.courses[DxfLayer::boundary].empty() ? "is missing" : "is not closed");
       return false;
     }
-    for (DxfCourse& c : others)
-      if (c.closed) piece_.courses[DxfLayer::cutout].push_back(std::move(c));
+    for (DxfCourse& c : others)  // as large ones are other sizes, nested
+      if (c.closed && std::fabs(course_area(c)) < 0.3 * std::fabs(course_area(*boundary))) piece_.courses[DxfLayer::cutout].push_back(std::move(c));
     cut_ = *boundary;
     // Stitch line and cut line come on either layer; the cloth is cut along the outer one.
     if (sew && std::fabs(course_area(*sew)) > 0.3 * std::fabs(course_area(cut_))) {
@@ -288,16 +290,40 @@ class PieceReader {
       const double off = border_distance(polygon_, points[i]);
       if (end ? off > 5e-5 && !within(polygon_, points[i]) : off < kInside || !within(polygon_, points[i])) return false;
     }
-    return true;
+    return std::none_of(rings_.begin(), rings_.end(), [&](const std::vector<Point2>& ring) { return touches(points, ring); });
+  }
+
+  /// True if a point lies in the ring or near it; also where that would take too long to say.
+  bool touches(const std::vector<Point2>& points, const std::vector<Point2>& ring) {
+    if (points.size() * ring.size() > budget_) return true;
+    budget_ -= points.size() * ring.size();
+    return std::any_of(points.begin(), points.end(), [&](const Point2& p) { return within(ring, p) || border_distance(ring, p) < kInside; });
+  }
+
+  /// With a point on every millimetre: what is tried by its points leaves the cloth nowhere between them by more.
+  static std::vector<Point2> dense(const std::vector<Point2>& points, bool closed) {
+    std::vector<Point2> out;
+    for (std::size_t i = 0; i + (closed ? 0 : 1) < points.size() && out.size() < 1'000'000; ++i) {
+      const Point2 &a = points[i], d = points[(i + 1) % points.size()] - a;
+      const int n = std::clamp(static_cast<int>(d.norm() / 1e-3), 1, 10000);
+      for (int k = 0; k < n; ++k) out.push_back(a + d * (static_cast<double>(k) / n));
+    }
+    if (!closed && !points.empty()) out.push_back(points.back());
+    return out;
   }
 
   void read_inside(Panel& panel) {
     std::size_t lost = 0, taken = 0;
     for (DxfCourse c : chained(piece_.courses[DxfLayer::cutout])) {
-      if (!c.closed || ++taken > kMostInside || !lies_inside(sampled(c), false) || std::fabs(course_area(c)) < kMinArea) {
+      const std::vector<Point2> ring = dense(sampled(c), c.closed);
+      const bool apart = std::none_of(rings_.begin(), rings_.end(), [&](const std::vector<Point2>& other) {
+        return touches(ring, other) || touches(other, ring);
+      });
+      if (!c.closed || ++taken > kMostInside || !apart || !lies_inside(ring, false) || std::fabs(course_area(c)) < kMinArea) {
         ++lost;
         continue;
       }
+      rings_.push_back(ring);
       std::vector<design::Edge> edges = outline_of(c, {}, {});
       if (edges.size() < 2) continue;
       design::Hole hole{unique_name(fmt::format("hole_{}", panel.holes.size() + 1), taken_), {}, static_cast<int>(panel.hole_edges.size()),
@@ -311,7 +337,7 @@ class PieceReader {
     }
     for (const DxfCourse& c : chained(piece_.courses[DxfLayer::internal])) {
       const geometry::Curve curve = ++taken > kMostInside || c.points.size() > kMostPoints ? geometry::Curve() : curve_of(c);
-      if (curve.length() < 1e-3 || c.closed || !panel.holes.empty() || !lies_inside(curve.polyline(1e-4), true)) {
+      if (curve.length() < 1e-3 || c.closed || !lies_inside(dense(curve.polyline(1e-4), false), true)) {
         ++lost;
         continue;
       }
@@ -327,16 +353,15 @@ class PieceReader {
       drills.push_back(middle);
     }
     for (const Point2& p : drills) {
-      if (++taken > kMostInside || !panel.holes.empty() || !lies_inside({p}, false)) {
+      if (++taken > kMostInside || !lies_inside({p}, false)) {
         ++lost;
         continue;
       }
       panel.points.push_back({unique_name(fmt::format("drill_{}", panel.points.size() + 1), taken_), {}, p});
     }
     if (lost > 0)
-      report_.note(fmt::format("{}: {} closed, crossing the outline, or beside holes {} left out", in_ticks(piece_.name),
-                               lost == 1 ? "1 inner line, hole or drill hole" : fmt::format("{} inner lines, holes and drill holes", lost),
-                               lost == 1 ? "is" : "are"));
+      report_.note(fmt::format("{}: {} left out: closed lines, and what crosses or touches the outline or a hole", in_ticks(piece_.name),
+                               lost == 1 ? "1 inner line, hole or drill hole is" : fmt::format("{} inner lines, holes and drill holes are", lost)));
   }
 
   DxfPiece piece_;
@@ -346,6 +371,7 @@ class PieceReader {
   DxfCourse cut_;
   std::optional<DxfCourse> sew_;
   std::vector<Point2> polygon_;  // of the stitch line
+  std::vector<std::vector<Point2>> rings_;  // of the holes
   std::set<std::string> taken_;
   std::size_t budget_ = 100'000'000;
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <string_view>
 
 namespace garment::io {
 namespace {
@@ -33,9 +34,31 @@ std::string trim(std::string text) {
   return text;
 }
 
+/// MTEXT without its formatting: "{\\fArial;Size: M}" is "Size: M"; \\P ends a line.
+std::vector<std::string> plain_lines(const std::string& text) {
+  std::vector<std::string> lines(1);
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '\\' && i + 1 < text.size()) {
+      const char code = text[++i];
+      if (code == 'P' && lines.size() < kMaxFacts) lines.emplace_back();
+      else if (std::string_view("AaCcFfHhQqTtWwp").find(code) != std::string_view::npos && text.find(';', i) != std::string::npos) i = text.find(';', i);
+      else if (std::string_view("\\LlOoKk").find(code) == std::string_view::npos) lines.back() += code;
+    } else if (c != '{' && c != '}') {
+      lines.back() += c;
+    }
+  }
+  return lines;
+}
+
 /// Takes "Key: value" into `facts`; other text as an annotation.
 void add_fact(std::map<std::string, std::string>& facts, const std::string& text) {
   if (facts.size() >= kMaxFacts) return;
+  if (text.find('\\') != std::string::npos) {
+    for (const std::string& line : plain_lines(text)) add_fact(facts, line);
+    return;
+  }
+  if (trim(text).starts_with("#")) return;  // the number of a grade rule
   const std::size_t colon = text.find(':');
   std::string key = colon == std::string::npos ? "annotation" : lower(trim(text.substr(0, colon)));
   std::string value = trim(colon == std::string::npos ? text : text.substr(colon + 1));
@@ -57,8 +80,10 @@ std::string fact(const std::map<std::string, std::string>& facts, std::initializ
   return {};
 }
 
-void add_entity(DxfPiece& piece, const DxfEntity& e) {
-  const DxfLayer layer = dxf_layer(e.layer);
+/// With `any_layer` what is on no layer of the standards is taken for the boundary.
+void add_entity(DxfPiece& piece, const DxfEntity& e, bool any_layer = false) {
+  DxfLayer layer = dxf_layer(e.layer);
+  if (any_layer && layer == DxfLayer::none) layer = DxfLayer::boundary;
   if (e.kind == Kind::text) return add_fact(piece.facts, e.text);
   if (e.kind == Kind::point) return piece.points[layer].push_back(e.points[0].point);
   DxfCourse c;
@@ -145,6 +170,39 @@ void loose_pieces(const std::vector<DxfEntity>& entities, DxfStyle& style) {
     if (const std::string name = fact(piece.facts, {"piece name", "name"}); !name.empty()) piece.name = name;
 }
 
+bool is_space(const std::string& block) {
+  const std::string name = lower(block);
+  return name.ends_with("model_space") || name.ends_with("paper_space");
+}
+
+/// A piece of each block that has a boundary; false, and an error, where they are too large.
+bool add_blocks(const DxfDocument& document, const DxfLimits& limits, bool any_layer, DxfStyle& style, PatternReport& report) {
+  std::set<std::string> inserted;  // into other blocks: parts of pieces, no pieces
+  for (const DxfBlock& block : document.blocks)
+    for (const DxfEntity& e : block.entities)
+      if (e.kind == Kind::insert && !is_space(block.name)) inserted.insert(e.text);
+  std::size_t budget = limits.max_points;
+  for (const DxfBlock& block : document.blocks) {
+    if (inserted.contains(block.name) || is_space(block.name)) continue;
+    const std::vector<DxfEntity> entities = flattened(document, block.entities, limits, report);
+    if (entities.size() > budget) {
+      report.error("G0962", fmt::format("line {}: blocks hold more than {} entities, with those inserted into them", block.line, limits.max_points),
+                   "is this the right file?");
+      return false;
+    }
+    budget -= entities.size();
+    DxfPiece piece;
+    piece.line = block.line;
+    for (const DxfEntity& e : entities) add_entity(piece, e, any_layer);
+    if (!has_course(piece, DxfLayer::boundary) && !has_course(piece, DxfLayer::sew)) continue;
+    piece.name = fact(piece.facts, {"piece name", "piecename", "name"});
+    if (piece.name.empty()) piece.name = block.name;
+    piece.size = fact(piece.facts, {"size"});
+    style.pieces.push_back(std::move(piece));
+  }
+  return true;
+}
+
 }  // namespace
 
 std::string lower(std::string text) {
@@ -178,30 +236,12 @@ DxfStyle dxf_style(const DxfDocument& document, const DxfLimits& limits, Pattern
   DxfStyle style;
   for (const DxfEntity& e : document.entities)
     if (e.kind == Kind::text) add_fact(style.facts, e.text);
-  std::set<std::string> inserted;  // into other blocks: parts of pieces, no pieces
-  for (const DxfBlock& block : document.blocks)
-    for (const DxfEntity& e : block.entities)
-      if (e.kind == Kind::insert) inserted.insert(e.text);
-  std::size_t budget = limits.max_points;
-  for (const DxfBlock& block : document.blocks) {
-    if (inserted.contains(block.name)) continue;
-    const std::vector<DxfEntity> entities = flattened(document, block.entities, limits, report);
-    if (entities.size() > budget) {
-      report.error("G0962", fmt::format("line {}: blocks hold more than {} entities, with those inserted into them", block.line, limits.max_points),
-                   "is this the right file?");
-      return {};
-    }
-    budget -= entities.size();
-    DxfPiece piece;
-    piece.line = block.line;
-    for (const DxfEntity& e : entities) add_entity(piece, e);
-    if (!has_course(piece, DxfLayer::boundary) && !has_course(piece, DxfLayer::sew)) continue;
-    piece.name = fact(piece.facts, {"piece name", "piecename", "name"});
-    if (piece.name.empty()) piece.name = block.name;
-    piece.size = fact(piece.facts, {"size"});
-    style.pieces.push_back(std::move(piece));
-  }
+  if (!add_blocks(document, limits, false, style, report)) return {};
   if (style.pieces.empty()) loose_pieces(flattened(document, document.entities, limits, report), style);
+  if (style.pieces.empty()) {
+    if (!add_blocks(document, limits, true, style, report)) return {};
+    if (!style.pieces.empty()) report.note("nothing lies on the layers of AAMA and ASTM: the largest closed line of each block is taken");
+  }
   // Some systems state the style in every piece.
   for (const DxfPiece& piece : style.pieces)
     for (const char* key : {"units", "sample size", "style name"})

@@ -14,6 +14,7 @@ using design::Point2;
 
 constexpr double kMeet = 1e-4;       // m; ends as near are one
 constexpr double kDouble = 1e-6;     // m; nearer points are drawn twice
+constexpr double kShortest = 1.01e-4;  // m; an edge of a script is longer
 constexpr double kStraight = 2e-5;   // m
 constexpr double kMatch = 3e-4;      // m, of a turn point and its vertex
 constexpr double kCorner = 20, kSharp = 75, kUnmarked = 30;  // degrees
@@ -37,10 +38,10 @@ DxfCourse turned(const DxfCourse& course) {
 }
 
 /// Without points drawn twice; a loop without its repeated start.
-DxfCourse cleaned(const DxfCourse& course) {
+DxfCourse cleaned(const DxfCourse& course, double apart = kDouble) {
   DxfCourse out{{}, course.closed};
   for (const DxfVertex& v : course.points) {
-    if (!out.points.empty() && (out.points.back().point - v.point).norm() < kDouble)
+    if (!out.points.empty() && (out.points.back().point - v.point).norm() < apart)
       out.points.back().bulge = v.bulge;
     else
       out.points.push_back(v);
@@ -49,7 +50,7 @@ DxfCourse cleaned(const DxfCourse& course) {
     out.points.pop_back();
     out.closed = true;
   }
-  while (out.closed && out.points.size() > 1 && (out.points.front().point - out.points.back().point).norm() < kDouble)
+  while (out.closed && out.points.size() > 1 && (out.points.front().point - out.points.back().point).norm() < apart)
     out.points.pop_back();
   return out;
 }
@@ -231,7 +232,7 @@ class Outline {
 
 }  // namespace
 
-std::vector<DxfCourse> chained(std::vector<DxfCourse> courses, std::size_t most) {
+std::vector<DxfCourse> chained(std::vector<DxfCourse> courses, double meet, std::size_t most) {
   std::vector<DxfCourse> out, open;
   for (const DxfCourse& raw : courses) {
     DxfCourse c = cleaned(raw);
@@ -247,13 +248,13 @@ std::vector<DxfCourse> chained(std::vector<DxfCourse> courses, std::size_t most)
     used[i] = 1;
     DxfCourse way = open[i];
     for (int end = 0; end < 2; ++end) {  // on from the end, then from the start
-      for (bool longer = true; longer && !(way.points.size() > 2 && (way.points.front().point - way.points.back().point).norm() < kMeet);) {
+      for (bool longer = true; longer && !(way.points.size() > 2 && (way.points.front().point - way.points.back().point).norm() < meet);) {
         longer = false;
         const Point2 at = way.points.back().point;
         for (std::size_t k = 0; k < open.size() && !longer; ++k) {
           if (used[k]) continue;
-          const bool starts = (open[k].points.front().point - at).norm() < kMeet;
-          if (!starts && (open[k].points.back().point - at).norm() >= kMeet) continue;
+          const bool starts = (open[k].points.front().point - at).norm() < meet;
+          if (!starts && (open[k].points.back().point - at).norm() >= meet) continue;
           const DxfCourse next = starts ? open[k] : turned(open[k]);
           way.points.back().bulge = next.points.front().bulge;
           way.points.insert(way.points.end(), next.points.begin() + 1, next.points.end());
@@ -287,7 +288,7 @@ double course_area(const DxfCourse& course) {
 }
 
 std::vector<design::Edge> outline_of(DxfCourse loop, const std::vector<Point2>& turns, const std::vector<Point2>& curves) {
-  loop = cleaned(loop);
+  loop = cleaned(loop, kShortest);
   if (loop.points.size() < 2) return {};
   double area = course_area(loop);
   if (area < 0) loop = turned(loop), area = -area;

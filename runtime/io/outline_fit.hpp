@@ -7,9 +7,9 @@
 
 namespace garment::io {
 
-/// Courses joined where their ends lie within 0.1 mm (m, any sense); closed ones repeat no point. At most `most` open ones
-/// are joined, the rest is left as it is.
-std::vector<DxfCourse> chained(std::vector<DxfCourse> courses, std::size_t most = 8192);
+/// Courses joined where their ends lie within `meet` (m), whichever way they run; closed ones repeat no point. At most `most`
+/// open ones are joined, the rest is left as it is.
+std::vector<DxfCourse> chained(std::vector<DxfCourse> courses, double meet = 1e-4, std::size_t most = 8192);
 
 /// Signed area of the polygon of a course, its arcs sampled within 0.02 mm, m^2.
 double course_area(const DxfCourse& course);

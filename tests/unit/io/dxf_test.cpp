@@ -274,6 +274,32 @@ TEST_CASE("arcs, circles and blocks in blocks") {
   CHECK(pattern_test::has_code(deep.findings, "G0964"));
 }
 
+TEST_CASE("formatted text, grade rules, other layers, nested sizes") {
+  const io::DxfResult mtext = read(style([](Draft& d) {
+    d.block("A").entity("MTEXT", "1").at(10, {0, 0}).pair(1, "{\\fArial|b0;Piece Name : COLLAR}\\PQuantity: 2").words("2", "# 14").polyline("1", front(), true);
+    d.polyline("1", {{20, 20}, {280, 20}, {280, 500}, {20, 500}}, true).polyline("1", {{100, 100}, {120, 100}, {120, 120}}, true).end_block();
+  }));
+  CHECK(garment_of(mtext).panels.at(0).name == "COLLAR");
+  CHECK(mtext.garment->panels[0].holes.size() == 1);
+  for (const std::string& note : mtext.notes) CHECK(note.find('#') == std::string::npos);
+  const io::DxfResult layers = read(style([](Draft& d) { d.block("A").polyline("PIECES", front(), true).end_block(); }));
+  CHECK(garment_of(layers).panels.size() == 1);
+}
+
+TEST_CASE("lines rounded to hundredths of an inch are chained") {
+  Draft inch;
+  std::vector<Point2> points;
+  for (Point2 p : front()) points.emplace_back(std::round(p.x() / 0.254) / 100, std::round(p.y() / 0.254) / 100);
+  const std::string text = style(
+      [&](Draft& d) {
+        d.block("A");
+        for (std::size_t i = 0; i < points.size(); ++i) d.entity("LINE", "1").at(10, points[i]).at(11, points[(i + 1) % points.size()] + Point2(0.01, 0.01));
+        d.end_block();
+      },
+      "Units: ENGLISH", inch);
+  CHECK(area(garment_of(read(text)).panels.at(0)) == Approx(polygon(front())).epsilon(1e-2));
+}
+
 TEST_CASE("what is wrong with a file is said with its line") {
   const std::string good = style([](Draft& d) { d.block("A").polyline("1", front(), true).end_block(); });
   auto replaced = [&](const std::string& from, const std::string& to) {
@@ -345,8 +371,6 @@ TEST_CASE("what is written is read back as the same pieces") {
     d.block("ROUND").entity("CIRCLE", "1").at(10, {0, 0}).number(40, 100).end_block();
   }));
   design::Garment garment = garment_of(first);
-  garment.panels[0].holes.clear();
-  garment.panels[0].hole_edges.clear();
   for (double allowance : {0.0, 0.01}) {
     for (design::Edge& edge : garment.panels[0].edges) edge.allowance = allowance;
     const std::string text = io::write_dxf(garment).text;
@@ -360,6 +384,7 @@ TEST_CASE("what is written is read back as the same pieces") {
       CHECK(area(back.panels[p]) == Approx(area(garment.panels[p])).epsilon(1e-4));
       CHECK(back.panels[p].notches.size() == garment.panels[p].notches.size());
       CHECK(back.panels[p].points.size() == garment.panels[p].points.size());
+      CHECK(back.panels[p].holes.size() == garment.panels[p].holes.size());
       CHECK(back.panels[p].lines.size() == garment.panels[p].lines.size());
       CHECK(back.panels[p].grain_angle == Approx(garment.panels[p].grain_angle).margin(1e-5));
     }
