@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <set>
 
@@ -19,6 +20,8 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
+constexpr std::size_t kMost = 4096;
+constexpr double kPlainSeam = 2e-3;  // m; the sides of a seam may differ by this much
 constexpr double kDegrees = 180 / portable::kPi;
 
 /// Calls `visit(key, number)` for every figure of a fabric, SI.
@@ -78,12 +81,12 @@ ordered_json panel_json(const design::Garment& garment, std::size_t p, const Cut
     const CutEdge& e = cut.edges[k];
     const std::string& name =
         e.dart >= 0 ? panel.darts[static_cast<std::size_t>(e.dart)].name : panel.edges[static_cast<std::size_t>(e.edge)].name;
-    names[std::to_string(written.edges[k])] = unique_name(name, taken);
+    names[std::to_string(written.edges[k])] = unique_name(identifier(name, "edge"), taken);
   }
   for (const design::Notch& notch : panel.notches)
     if (const int edge = outline_edge(panel, notch.edge); edge >= 0)
       if (const auto place = place_in_file(cut, written, edge, notch.at))
-        notches.push_back({{"name", notch.name}, {"edge", place->first}, {"at", place->second}});
+        notches.push_back({{"name", identifier(notch.name, "notch")}, {"edge", place->first}, {"at", place->second}});
   out["edges"] = std::move(names);
   if (!notches.empty()) out["notches"] = std::move(notches);
   return out;
@@ -101,7 +104,7 @@ ordered_json block(const design::Garment& garment, const CutGarment& cut, const 
     const design::Seam& seam = garment.seams[s];
     if (written.stitches[s].empty()) continue;
     const double ratio = seam.ratio.empty() || !std::isfinite(seam.ratio[0]) ? 1 : seam.ratio[0];
-    seams.push_back({{"name", seam.name}, {"stitches", written.stitches[s]}, {"relation", relation_of(ratio)}, {"ratio", ratio}});
+    seams.push_back({{"name", identifier(seam.name, "seam")}, {"stitches", written.stitches[s]}, {"relation", relation_of(ratio)}, {"ratio", ratio}});
   }
   out["fabrics"] = std::move(fabrics);
   out["panels"] = std::move(panels);
@@ -126,7 +129,12 @@ class Reader {
         if (const json* panel = member(*panels, files_[p].file_name.c_str())) read_panel(*panel, p);
     }
     if (const json* seams = member(value, "seams")) {
-      if (!seams->is_array()) return refuse("`seams`", *seams, "a list");
+      if (!seams->is_array() || seams->size() > kMost) return refuse("`seams`", *seams, "a list of at most 4096");
+      last_.clear();
+      for (std::size_t s = 0; s < numbers_.size(); ++s) seam_of_[numbers_[s]] = s;
+      for (const design::Seam& seam : garment_.seams) names_.insert(seam.name);
+      for (const design::Panel& panel : garment_.panels) names_.insert(panel.name);
+      for (const design::Fabric& fabric : garment_.fabrics) names_.insert(fabric.name);
       for (const json& seam : *seams) read_seam(seam);
     }
   }
@@ -191,7 +199,9 @@ class Reader {
       panel.grain_angle = (files_[p].back ? -1 : 1) * grain->get<double>() / kDegrees;
     if (const json* names = member(value, "edges"); names && names->is_object()) name_edges(*names, p);
     const json* notches = member(value, "notches");
-    if (!notches || !notches->is_array()) return;
+    if (!notches) return;
+    if (!notches->is_array() || notches->size() > kMost) return refuse("`notches`", *notches, "a list of at most 4096");
+    last_.clear();
     std::set<std::string> taken;
     for (const design::Edge& edge : panel.edges) taken.insert(edge.name);
     for (const json& item : *notches) {
@@ -208,22 +218,23 @@ class Reader {
         continue;
       }
       const double place = std::clamp(edge->turned ? length - along : along, 0.0, length);
-      panel.notches.push_back({unique_name(*name, taken), {}, on.name, place});
+      panel.notches.push_back({fresh(*name, taken), {}, on.name, place});
     }
   }
 
   void name_edges(const json& names, std::size_t p) {
     design::Panel& panel = garment_.panels[p];
     std::set<std::string> taken;
-    std::vector<std::string> fresh(panel.edges.size());
+    std::vector<std::string> named(panel.edges.size());
+    last_.clear();
     for (std::size_t i = 0; i < files_[p].edges.size(); ++i) {
       const json* name = member(names, std::to_string(i).c_str());
       const int edge = files_[p].edges[i].edge;
       if (edge < 0 || !name || !name->is_string()) continue;
-      fresh[static_cast<std::size_t>(edge)] = unique_name(identifier(name->get<std::string>().substr(0, 200), "edge"), taken);
+      named[static_cast<std::size_t>(edge)] = fresh(identifier(name->get<std::string>().substr(0, 200), "edge"), taken);
     }
-    for (std::size_t e = 0; e < fresh.size(); ++e)
-      panel.edges[e].name = fresh[e].empty() ? unique_name(panel.edges[e].name, taken) : fresh[e];
+    for (std::size_t e = 0; e < named.size(); ++e)
+      panel.edges[e].name = named[e].empty() ? fresh(panel.edges[e].name, taken) : named[e];
   }
 
   void read_seam(const json& value) {
@@ -231,25 +242,41 @@ class Reader {
     const json *stitches = member(value, "stitches"), *ratio = member(value, "ratio");
     if (!name || !stitches || !stitches->is_array())
       return refuse("a seam", value, "an object of `name`, `stitches` and `ratio`");
-    for (const json& number : *stitches)
-      for (std::size_t s = 0; s < numbers_.size(); ++s)
-        if (number == numbers_[s]) {
-          std::set<std::string> taken;
-          for (std::size_t other = 0; other < garment_.seams.size(); ++other)
-            if (other != s) taken.insert(garment_.seams[other].name);
-          for (const design::Panel& panel : garment_.panels) taken.insert(panel.name);
-          for (const design::Fabric& fabric : garment_.fabrics) taken.insert(fabric.name);
-          garment_.seams[s].name = unique_name(*name, taken);
-          // The lengths decide which side is the longer; only a relation that they bear out is taken.
-          if (ratio && ratio->is_number() && std::fabs(ratio->get<double>() - garment_.seams[s].ratio[0]) < 0.02)
-            garment_.seams[s].ratio[0] = ratio->get<double>();
-        }
+    for (const json& number : *stitches) {
+      const auto found = number.is_number_unsigned() ? seam_of_.find(number.get<std::size_t>()) : seam_of_.end();
+      if (found == seam_of_.end()) continue;
+      design::Seam& seam = garment_.seams[found->second];
+      names_.erase(seam.name);
+      seam.name = fresh(*name, names_);
+      // The lengths decide which side is the longer; only a relation that they bear out is taken.
+      const double stated_one = ratio && ratio->is_number() ? ratio->get<double>() : 0;
+      const double length = seam_length(seam, 0), other = seam_length(seam, 1);
+      if (stated_one >= 1 && std::fabs(length - stated_one * other) <= kPlainSeam) seam.ratio[0] = stated_one;
+      seam_of_.erase(found);
+    }
+  }
+
+  static double seam_length(const design::Seam& seam, std::size_t side) {
+    return std::fabs(seam.sides[side].parts[0].to - seam.sides[side].parts[0].from);
+  }
+
+  /// As unique_name, but quick where thousands have one name: numbers go on from the last one given.
+  std::string fresh(const std::string& base, std::set<std::string>& taken) {
+    if (taken.insert(base).second) return base;
+    int& last = last_[base];
+    std::string name;
+    do name = fmt::format("{}_{}", base, last = std::max(last, 1) + 1);
+    while (!taken.insert(name).second);
+    return name;
   }
 
   const std::vector<FilePanel>& files_;
   const std::vector<std::size_t>& numbers_;
   design::Garment& garment_;
   PatternReport& report_;
+  std::map<std::size_t, std::size_t> seam_of_;  // by stitch
+  std::set<std::string> names_;                 // of the whole garment
+  std::map<std::string, int> last_;
 };
 
 /// Without the names of edges and seams.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "runtime/base/number.hpp"
 #include "runtime/io/pattern_document.hpp"
 #include "runtime/io/pattern_writer.hpp"
 
@@ -130,8 +131,8 @@ void fill(const json& line, const char* key, json& list) {
   const json* sparse = member(line, key);
   if (!sparse || !sparse->is_object()) return;
   for (const auto& [number, value] : sparse->items())
-    for (std::size_t i = 0; i < list.size(); ++i)
-      if (std::to_string(i) == number) list[i] = value;
+    if (const auto i = parse_number(number); i && *i >= 0 && *i < static_cast<double>(list.size()))
+      list[static_cast<std::size_t>(*i)] = value;
 }
 
 std::optional<PanelLayout> panel_of_line(const json& line) {
