@@ -61,15 +61,19 @@ std::string ending_of(const std::string& path) {
   return ending;
 }
 
-bool is_pattern_ending(const std::string& ending) { return ending == ".json" || ending == ".dxf" || ending == ".svg"; }
+bool is_pattern_ending(const std::string& ending) {
+  return ending == ".json" || ending == ".dxf" || ending == ".svg";
+}
 
-PatternFile read_pattern_file(const std::string& ending, std::string_view bytes, const PatternFileOptions& options) {
+PatternFile read_pattern_file(const std::string& ending, std::string_view bytes,
+                              const PatternFileOptions& options) {
   if (ending == ".dxf") return read_pieces(bytes, options);
   if (ending == ".svg") return read_drawing(bytes, options);
   return read_specification(bytes, options);
 }
 
-PatternBytes write_pattern_file(const std::string& ending, const design::Garment& garment, const io::PatternLayout* layout) {
+PatternBytes write_pattern_file(const std::string& ending, const design::Garment& garment,
+                                const io::PatternLayout* layout) {
   if (ending == ".json") {
     io::PatternText written = io::write_pattern_json(garment, layout);
     return {std::move(written.text), std::move(written.findings)};

@@ -31,12 +31,14 @@ std::string ending_of(const std::string& path);
 bool is_pattern_ending(const std::string& ending);
 
 /// Reads a pattern in the format that `ending` names (one of is_pattern_ending).
-PatternFile read_pattern_file(const std::string& ending, std::string_view bytes, const PatternFileOptions& options);
+PatternFile read_pattern_file(const std::string& ending, std::string_view bytes,
+                              const PatternFileOptions& options);
 
 struct PatternBytes {
   std::optional<std::string> bytes;  ///< none: no format of this ending is written
   Findings findings;
 };
-PatternBytes write_pattern_file(const std::string& ending, const design::Garment& garment, const io::PatternLayout* layout);
+PatternBytes write_pattern_file(const std::string& ending, const design::Garment& garment,
+                                const io::PatternLayout* layout);
 
 }  // namespace garment::cli

@@ -24,7 +24,8 @@ void add_mark(Marks& marks, double at) {
 
 /// Several pieces that formats know only as edges of their own.
 bool is_chain(const geometry::Curve& curve) {
-  return std::holds_alternative<geometry::Through>(curve.shape()) || std::holds_alternative<geometry::Chain>(curve.shape());
+  return std::holds_alternative<geometry::Through>(curve.shape()) ||
+         std::holds_alternative<geometry::Chain>(curve.shape());
 }
 
 /// The stretch as one line, arc or Bezier curve.
@@ -32,9 +33,8 @@ geometry::Curve simple_part(const geometry::Curve& curve, double from, double to
   const geometry::Curve part = curve.part(from, to);
   if (!is_chain(part)) return part;
   const std::vector<geometry::Curve> links = part.elements();
-  const auto longest = std::max_element(links.begin(), links.end(), [](const auto& a, const auto& b) {
-    return a.length() < b.length();
-  });
+  const auto longest = std::max_element(links.begin(), links.end(),
+                                        [](const auto& a, const auto& b) { return a.length() < b.length(); });
   if (longest == links.end()) return {part.start(), part.end()};
   return {part.start(), part.end(), longest->shape()};  // the others are no longer than a mark is wide
 }
@@ -90,14 +90,17 @@ class Divider {
       if (edge < 0 || dart.width <= kSamePlace) continue;
       const auto e = static_cast<std::size_t>(edge);
       mouths[e].push_back({std::max(0.0, dart.at - dart.width / 2),
-                           std::min(panel.edges[e].curve.length(), dart.at + dart.width / 2), static_cast<int>(d)});
+                           std::min(panel.edges[e].curve.length(), dart.at + dart.width / 2),
+                           static_cast<int>(d)});
       for (double at : {mouths[e].back().from, mouths[e].back().to}) add_mark(marks[e], at);
     }
     for (auto& list : mouths)
       std::sort(list.begin(), list.end(), [](const Mouth& a, const Mouth& b) { return a.from < b.from; });
   }
 
-  Marks& marks(int panel, int edge) { return marks_[static_cast<std::size_t>(panel)][static_cast<std::size_t>(edge)]; }
+  Marks& marks(int panel, int edge) {
+    return marks_[static_cast<std::size_t>(panel)][static_cast<std::size_t>(edge)];
+  }
   const std::vector<Mouth>& mouths(int panel, int edge) const {
     return mouths_[static_cast<std::size_t>(panel)][static_cast<std::size_t>(edge)];
   }
@@ -126,7 +129,8 @@ class Divider {
       for (std::size_t i = 0; i + 1 < at.size(); ++i) {
         if (at[i] < low - kSamePlace || at[i + 1] > high + kSamePlace) continue;
         if (in_mouth(part.panel, part.edge, (at[i] + at[i + 1]) / 2)) continue;
-        of_part.push_back({part.panel, part.edge, at[i], at[i + 1], (at[i + 1] - at[i]) / side.fullness_of(k)});
+        of_part.push_back(
+            {part.panel, part.edge, at[i], at[i + 1], (at[i + 1] - at[i]) / side.fullness_of(k)});
       }
       if (part.from > part.to) {
         std::reverse(of_part.begin(), of_part.end());
@@ -205,7 +209,8 @@ class Divider {
     const double low = std::min(s.from, s.to), high = std::max(s.from, s.to);
     for (std::size_t i = 0; i < panel.edges.size(); ++i) {
       const CutEdge& e = panel.edges[i];
-      if (e.edge == s.edge && e.dart < 0 && std::fabs(e.from - low) < kSamePlace && std::fabs(e.to - high) < kSamePlace)
+      if (e.edge == s.edge && e.dart < 0 && std::fabs(e.from - low) < kSamePlace &&
+          std::fabs(e.to - high) < kSamePlace)
         return static_cast<int>(i);
     }
     return -1;

@@ -37,7 +37,11 @@ void add_utf8(std::string& out, std::uint32_t c) {
 /// Length of the UTF-8 character that starts here; 0 if it is none.
 std::size_t utf8_length(std::string_view text) {
   const auto c = static_cast<unsigned char>(text[0]);
-  const std::size_t n = c < 0x80 ? 1 : c >= 0xC2 && c < 0xE0 ? 2 : c >= 0xE0 && c < 0xF0 ? 3 : c >= 0xF0 && c < 0xF5 ? 4 : 0;
+  const std::size_t n = c < 0x80                ? 1
+                        : c >= 0xC2 && c < 0xE0 ? 2
+                        : c >= 0xE0 && c < 0xF0 ? 3
+                        : c >= 0xF0 && c < 0xF5 ? 4
+                                                : 0;
   if (n == 0 || n > text.size()) return 0;
   for (std::size_t i = 1; i < n; ++i)
     if ((static_cast<unsigned char>(text[i]) & 0xC0) != 0x80) return 0;
@@ -51,7 +55,10 @@ std::string to_utf8(std::string_view text) {
       std::uint32_t code = 0;
       bool hex = true;
       for (char c : text.substr(3, 4)) {
-        const int digit = c >= '0' && c <= '9' ? c - '0' : c >= 'A' && c <= 'F' ? c - 'A' + 10 : c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
+        const int digit = c >= '0' && c <= '9'   ? c - '0'
+                          : c >= 'A' && c <= 'F' ? c - 'A' + 10
+                          : c >= 'a' && c <= 'f' ? c - 'a' + 10
+                                                 : -1;
         hex = hex && digit >= 0;
         code = code * 16 + static_cast<std::uint32_t>(std::max(digit, 0));
       }
@@ -121,10 +128,11 @@ class Parser {
     finish_entity();
     if (failed_) return false;
     if (!ended_)
-      report_.warning("G0963",
-                      fmt::format("line {}: the file breaks off{}, expected EOF", lines_.number(),
-                                  in_block_ ? fmt::format(" in block {}", in_ticks(document_.blocks.back().name)) : ""),
-                      "what stands before is read; ask for the whole file");
+      report_.warning(
+          "G0963",
+          fmt::format("line {}: the file breaks off{}, expected EOF", lines_.number(),
+                      in_block_ ? fmt::format(" in block {}", in_ticks(document_.blocks.back().name)) : ""),
+          "what stands before is read; ask for the whole file");
     return true;
   }
 
@@ -147,12 +155,15 @@ class Parser {
       std::string_view rest;
       while (lines_.next(rest))
         if (!trimmed(rest).empty())
-          return fail("G0961", lines_.number(), fmt::format("text after an empty line, expected a group code"),
+          return fail("G0961", lines_.number(),
+                      fmt::format("text after an empty line, expected a group code"),
                       "a DXF file is pairs of lines: a group code, then its value");
       return false;
     }
     if (!number || *number != std::floor(*number) || *number < -5 || *number > 1071)
-      return fail("G0961", lines_.number(), fmt::format("{} is no group code, expected a whole number from -5 to 1071", in_ticks(trimmed(code))),
+      return fail("G0961", lines_.number(),
+                  fmt::format("{} is no group code, expected a whole number from -5 to 1071",
+                              in_ticks(trimmed(code))),
                   "a DXF file is pairs of lines: a group code, then its value");
     if (!lines_.next(value)) return false;
     pair_ = {static_cast<int>(*number), value, lines_.number()};
@@ -167,8 +178,8 @@ class Parser {
     const auto number = parse_number(text);
     if (number && std::fabs(*number) <= limits_.max_coordinate) return number;
     fail("G0961", pair.line,
-         fmt::format("{} after group code {}, expected a finite number of at most {}", in_ticks(text), pair.code,
-                     format_number(limits_.max_coordinate)),
+         fmt::format("{} after group code {}, expected a finite number of at most {}", in_ticks(text),
+                     pair.code, format_number(limits_.max_coordinate)),
          "NaN and infinite numbers have no place in a drawing");
     return std::nullopt;
   }
@@ -203,7 +214,8 @@ class Parser {
       in_block_ = false;
     } else if (type == "BLOCK" && (section_ == "BLOCKS" || section_.empty())) {
       if (document_.blocks.size() >= limits_.max_blocks)
-        return fail("G0962", pair_.line, fmt::format("more than {} blocks", limits_.max_blocks), "is this the right file?");
+        return fail("G0962", pair_.line, fmt::format("more than {} blocks", limits_.max_blocks),
+                    "is this the right file?");
       document_.blocks.emplace_back().line = pair_.line;
       in_block_ = block_head_ = true;
     } else if (type == "ENDBLK") {
@@ -222,13 +234,20 @@ class Parser {
     entity_.emplace();
     entity_->line = pair_.line;
     polyline_ = type == "POLYLINE";
-    if (type == "LINE") entity_->kind = Kind::line, entity_->points.resize(2);
-    else if (type == "POLYLINE" || type == "LWPOLYLINE") entity_->kind = Kind::polyline;
-    else if (type == "POINT") entity_->kind = Kind::point, entity_->points.resize(1);
-    else if (type == "TEXT" || type == "MTEXT" || type == "ATTRIB" || type == "ATTDEF") entity_->kind = Kind::text, entity_->points.resize(1);
-    else if (type == "ARC") entity_->kind = Kind::arc, entity_->points.resize(1);
-    else if (type == "CIRCLE") entity_->kind = Kind::circle, entity_->points.resize(1);
-    else if (type == "INSERT") entity_->kind = Kind::insert, entity_->points.resize(1);
+    if (type == "LINE")
+      entity_->kind = Kind::line, entity_->points.resize(2);
+    else if (type == "POLYLINE" || type == "LWPOLYLINE")
+      entity_->kind = Kind::polyline;
+    else if (type == "POINT")
+      entity_->kind = Kind::point, entity_->points.resize(1);
+    else if (type == "TEXT" || type == "MTEXT" || type == "ATTRIB" || type == "ATTDEF")
+      entity_->kind = Kind::text, entity_->points.resize(1);
+    else if (type == "ARC")
+      entity_->kind = Kind::arc, entity_->points.resize(1);
+    else if (type == "CIRCLE")
+      entity_->kind = Kind::circle, entity_->points.resize(1);
+    else if (type == "INSERT")
+      entity_->kind = Kind::insert, entity_->points.resize(1);
     light_ = type == "LWPOLYLINE";
     return count(1);
   }
@@ -245,13 +264,16 @@ class Parser {
       if (pair.code == 10 || pair.code == 20)
         if (auto number = figure(pair)) block.base[pair.code == 10 ? 0 : 1] = *number;
     } else if (entity_ && !table_record_) {
-      if (polyline_ && has_vertex_) in_vertex(pair);
-      else in_entity(pair);
+      if (polyline_ && has_vertex_)
+        in_vertex(pair);
+      else
+        in_entity(pair);
     }
   }
 
   void header(const Pair& pair) {
-    if (pair.code == 9) variable_ = trimmed(pair.value);
+    if (pair.code == 9)
+      variable_ = trimmed(pair.value);
     else if ((pair.code == 70 || pair.code == 40) && !variable_.empty())
       if (auto number = parse_number(trimmed(pair.value))) document_.header[variable_] = *number;
   }
@@ -260,8 +282,10 @@ class Parser {
     if (pair.code == 10 || pair.code == 20 || pair.code == 42) {
       const auto number = figure(pair);
       if (!number) return;
-      if (pair.code == 42) vertex_.bulge = *number;
-      else vertex_.point[pair.code == 10 ? 0 : 1] = *number, vertex_known_ = true;
+      if (pair.code == 42)
+        vertex_.bulge = *number;
+      else
+        vertex_.point[pair.code == 10 ? 0 : 1] = *number, vertex_known_ = true;
     } else if (pair.code == 70) {
       const auto flags = parse_number(trimmed(pair.value));
       vertex_frame_ = flags && *flags >= 0 && *flags < 256 && (static_cast<int>(*flags) & 16) != 0;
@@ -291,7 +315,8 @@ class Parser {
         return;
       case 70: {
         const auto flags = parse_number(trimmed(pair.value));
-        if (e.kind == Kind::polyline && flags && *flags >= 0 && *flags < 32768) e.closed = (static_cast<int>(*flags) & 1) != 0;
+        if (e.kind == Kind::polyline && flags && *flags >= 0 && *flags < 32768)
+          e.closed = (static_cast<int>(*flags) & 1) != 0;
         return;
       }
       case 10:
@@ -387,13 +412,15 @@ class Flattener {
       const auto found = by_name_.find(entity.text);
       if (found == by_name_.end()) continue;
       if (depth >= limits_.max_depth) {
-        report_.warning("G0964", fmt::format("line {}: blocks are inserted more than {} deep; the rest is left out",
-                                             entity.line, limits_.max_depth),
+        report_.warning("G0964",
+                        fmt::format("line {}: blocks are inserted more than {} deep; the rest is left out",
+                                    entity.line, limits_.max_depth),
                         "does a block insert itself?");
         return;
       }
       const DxfBlock& block = document_.blocks[found->second];
-      const double turn = entity.turn * (portable::kPi / 180), c = portable::cos(turn), s = portable::sin(turn);
+      const double turn = entity.turn * (portable::kPi / 180), c = portable::cos(turn),
+                   s = portable::sin(turn);
       Eigen::Matrix2d linear;
       linear << c * entity.scale.x(), -s * entity.scale.y(), s * entity.scale.x(), c * entity.scale.y();
       Motion inner;
@@ -430,12 +457,15 @@ class Flattener {
 
 std::optional<DxfDocument> parse_dxf(std::string_view bytes, const DxfLimits& limits, PatternReport& report) {
   if (bytes.starts_with("AutoCAD Binary DXF")) {
-    report.error("G0960", "line 1: a binary DXF file, expected text", "save it as ASCII DXF, R12 if there is a choice");
+    report.error("G0960", "line 1: a binary DXF file, expected text",
+                 "save it as ASCII DXF, R12 if there is a choice");
     return std::nullopt;
   }
   if (bytes.size() > limits.max_bytes) {
-    report.error("G0962", fmt::format("line 1: the file has {} bytes, at most {} are read", bytes.size(), limits.max_bytes),
-                 "is this the right file?");
+    report.error(
+        "G0962",
+        fmt::format("line 1: the file has {} bytes, at most {} are read", bytes.size(), limits.max_bytes),
+        "is this the right file?");
     return std::nullopt;
   }
   if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);

@@ -1,6 +1,7 @@
 #pragma once
-// ASCII DXF as pairs of group code and value, made into blocks of entities: the first stage of the DXF reader. Knows nothing of
-// garments. DXF reference of AutoCAD R12 (AC1009), with what later editions add to it.
+// ASCII DXF as pairs of group code and value, made into blocks of entities: the first stage of the DXF
+// reader. Knows nothing of garments. DXF reference of AutoCAD R12 (AC1009), with what later editions add to
+// it.
 #include <cstddef>
 #include <map>
 #include <optional>
@@ -19,8 +20,8 @@ struct DxfLimits {
   std::size_t max_bytes = 64u << 20;
   std::size_t max_points = 2'000'000;  ///< of the file; entities count as one more
   std::size_t max_blocks = 8192;
-  int max_depth = 8;                   ///< of blocks in blocks
-  double max_coordinate = 1e7;         ///< units of the file
+  int max_depth = 8;            ///< of blocks in blocks
+  double max_coordinate = 1e7;  ///< units of the file
 };
 
 struct DxfVertex {
@@ -53,9 +54,10 @@ struct DxfDocument {
   std::size_t passed_over = 0;  ///< entities of kinds that are not read
 };
 
-/// Reads the file; nothing, and an error in `report` with the line of the file, where it is none: binary (G0960), pairs or
-/// numbers out of order (G0961), too large (G0962). A file that breaks off is read as far as it goes, with a warning (G0963).
-/// Text is made UTF-8: what is not is taken as Latin-1, and \U+00E9 is decoded.
+/// Reads the file; nothing, and an error in `report` with the line of the file, where it is none: binary
+/// (G0960), pairs or numbers out of order (G0961), too large (G0962). A file that breaks off is read as far
+/// as it goes, with a warning (G0963). Text is made UTF-8: what is not is taken as Latin-1, and \U+00E9 is
+/// decoded.
 std::optional<DxfDocument> parse_dxf(std::string_view bytes, const DxfLimits& limits, PatternReport& report);
 
 /// The entities of a block with what is inserted into it, in the block's coordinates.

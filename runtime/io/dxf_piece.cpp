@@ -18,12 +18,24 @@ struct LayerWord {
 };
 // The longer words first: "sew" is in "sewline", "notch" must not be taken for a line.
 constexpr LayerWord kWords[] = {
-    {"notch", DxfLayer::notches},      {"mirror", DxfLayer::mirror},     {"fold", DxfLayer::mirror},
-    {"grain", DxfLayer::grain},        {"sew", DxfLayer::sew},           {"stitch", DxfLayer::sew},
-    {"seam", DxfLayer::sew},           {"turn", DxfLayer::turn_points},  {"curve", DxfLayer::curve_points},
-    {"drill", DxfLayer::drill},        {"cutout", DxfLayer::cutout},     {"internal", DxfLayer::internal},
-    {"annotation", DxfLayer::annotation}, {"text", DxfLayer::annotation}, {"boundary", DxfLayer::boundary},
-    {"outline", DxfLayer::boundary},   {"contour", DxfLayer::boundary},  {"cut", DxfLayer::boundary},
+    {"notch", DxfLayer::notches},
+    {"mirror", DxfLayer::mirror},
+    {"fold", DxfLayer::mirror},
+    {"grain", DxfLayer::grain},
+    {"sew", DxfLayer::sew},
+    {"stitch", DxfLayer::sew},
+    {"seam", DxfLayer::sew},
+    {"turn", DxfLayer::turn_points},
+    {"curve", DxfLayer::curve_points},
+    {"drill", DxfLayer::drill},
+    {"cutout", DxfLayer::cutout},
+    {"internal", DxfLayer::internal},
+    {"annotation", DxfLayer::annotation},
+    {"text", DxfLayer::annotation},
+    {"boundary", DxfLayer::boundary},
+    {"outline", DxfLayer::boundary},
+    {"contour", DxfLayer::boundary},
+    {"cut", DxfLayer::boundary},
 };
 
 constexpr std::size_t kMaxFacts = 200, kMaxFact = 200;
@@ -41,9 +53,13 @@ std::vector<std::string> plain_lines(const std::string& text) {
     const char c = text[i];
     if (c == '\\' && i + 1 < text.size()) {
       const char code = text[++i];
-      if (code == 'P' && lines.size() < kMaxFacts) lines.emplace_back();
-      else if (std::string_view("AaCcFfHhQqTtWwp").find(code) != std::string_view::npos && text.find(';', i) != std::string::npos) i = text.find(';', i);
-      else if (std::string_view("\\LlOoKk").find(code) == std::string_view::npos) lines.back() += code;
+      if (code == 'P' && lines.size() < kMaxFacts)
+        lines.emplace_back();
+      else if (std::string_view("AaCcFfHhQqTtWwp").find(code) != std::string_view::npos &&
+               text.find(';', i) != std::string::npos)
+        i = text.find(';', i);
+      else if (std::string_view("\\LlOoKk").find(code) == std::string_view::npos)
+        lines.back() += code;
     } else if (c != '{' && c != '}') {
       lines.back() += c;
     }
@@ -70,8 +86,10 @@ void add_fact(std::map<std::string, std::string>& facts, const std::string& text
     value.resize(end);
   }
   std::string& fact = facts[key];
-  if (fact.empty()) fact = value;
-  else if (key == "annotation" && fact.size() < kMaxFact) fact += ", " + value;
+  if (fact.empty())
+    fact = value;
+  else if (key == "annotation" && fact.size() < kMaxFact)
+    fact += ", " + value;
 }
 
 std::string fact(const std::map<std::string, std::string>& facts, std::initializer_list<const char*> keys) {
@@ -105,8 +123,8 @@ std::size_t size_split(const std::string& name) {
   return at == std::string::npos || at == 0 || at + 1 == name.size() ? std::string::npos : at;
 }
 
-/// Sizes from block names, where no text states them: the last parts of names that are taken for several pieces, or that are
-/// the sample size.
+/// Sizes from block names, where no text states them: the last parts of names that are taken for several
+/// pieces, or that are the sample size.
 void split_names(DxfStyle& style, const std::string& sample) {
   std::map<std::string, std::set<std::string>> sizes_of;  // by first part
   for (const DxfPiece& piece : style.pieces)
@@ -127,19 +145,23 @@ void split_names(DxfStyle& style, const std::string& sample) {
   }
 }
 
-/// A file without blocks: every closed course of the boundary is a piece, and what lies in its box belongs to it.
+/// A file without blocks: every closed course of the boundary is a piece, and what lies in its box belongs to
+/// it.
 void loose_pieces(const std::vector<DxfEntity>& entities, DxfStyle& style) {
   struct Box {
     Point2 low{1e300, 1e300}, high{-1e300, -1e300};
     void grow(const Point2& p) { low = low.cwiseMin(p), high = high.cwiseMax(p); }
-    bool holds(const Point2& p) const { return (p.array() >= low.array()).all() && (p.array() <= high.array()).all(); }
+    bool holds(const Point2& p) const {
+      return (p.array() >= low.array()).all() && (p.array() <= high.array()).all();
+    }
   };
   std::vector<Box> boxes;
   constexpr std::size_t kMost = 4096;
   for (const DxfEntity& e : entities) {
     bool closed = false;
     const std::vector<DxfVertex> points = course(e, closed);
-    const bool loop = points.size() > 2 && (closed || (points.front().point - points.back().point).norm() < 1e-6);
+    const bool loop =
+        points.size() > 2 && (closed || (points.front().point - points.back().point).norm() < 1e-6);
     if (dxf_layer(e.layer) != DxfLayer::boundary || !loop || boxes.size() >= kMost) continue;
     Box box;
     for (const DxfVertex& v : points) box.grow(v.point);
@@ -162,7 +184,8 @@ void loose_pieces(const std::vector<DxfEntity>& entities, DxfStyle& style) {
     const Point2 at = e.points.empty() ? Point2(1e300, 1e300) : e.points[0].point;
     std::size_t best = boxes.size();
     for (std::size_t b = 0; b < boxes.size(); ++b)
-      if (boxes[b].holds(at) && (best == boxes.size() || (boxes[b].high - boxes[b].low).prod() < (boxes[best].high - boxes[best].low).prod()))
+      if (boxes[b].holds(at) && (best == boxes.size() || (boxes[b].high - boxes[b].low).prod() <
+                                                             (boxes[best].high - boxes[best].low).prod()))
         best = b;
     if (best < boxes.size()) add_entity(style.pieces[best], e);
   }
@@ -176,7 +199,8 @@ bool is_space(const std::string& block) {
 }
 
 /// A piece of each block that has a boundary; false, and an error, where they are too large.
-bool add_blocks(const DxfDocument& document, const DxfLimits& limits, bool any_layer, DxfStyle& style, PatternReport& report) {
+bool add_blocks(const DxfDocument& document, const DxfLimits& limits, bool any_layer, DxfStyle& style,
+                PatternReport& report) {
   std::set<std::string> inserted;  // into other blocks: parts of pieces, no pieces
   for (const DxfBlock& block : document.blocks)
     for (const DxfEntity& e : block.entities)
@@ -186,7 +210,9 @@ bool add_blocks(const DxfDocument& document, const DxfLimits& limits, bool any_l
     if (inserted.contains(block.name) || is_space(block.name)) continue;
     const std::vector<DxfEntity> entities = flattened(document, block.entities, limits, report);
     if (entities.size() > budget) {
-      report.error("G0962", fmt::format("line {}: blocks hold more than {} entities, with those inserted into them", block.line, limits.max_points),
+      report.error("G0962",
+                   fmt::format("line {}: blocks hold more than {} entities, with those inserted into them",
+                               block.line, limits.max_points),
                    "is this the right file?");
       return false;
     }
@@ -217,11 +243,24 @@ DxfLayer dxf_layer(const std::string& name) {
   if (low.size() > 1 && low[0] == 'l' && low[1] >= '0' && low[1] <= '9') first = 1;
   std::size_t end = first;
   int number = 0;
-  while (end < low.size() && low[end] >= '0' && low[end] <= '9' && end < first + 6) number = 10 * number + (low[end++] - '0');
-  if (end > first && (end == low.size() || low[end] == '_' || low[end] == ' ' || low[end] == '-' || low[end] == '.')) {
+  while (end < low.size() && low[end] >= '0' && low[end] <= '9' && end < first + 6)
+    number = 10 * number + (low[end++] - '0');
+  if (end > first &&
+      (end == low.size() || low[end] == '_' || low[end] == ' ' || low[end] == '-' || low[end] == '.')) {
     if (number >= 80 && number <= 83) return DxfLayer::notches;
     switch (number) {
-      case 1: case 2: case 3: case 4: case 5: case 6: case 7: case 8: case 11: case 13: case 14: case 15:
+      case 1:
+      case 2:
+      case 3:
+      case 4:
+      case 5:
+      case 6:
+      case 7:
+      case 8:
+      case 11:
+      case 13:
+      case 14:
+      case 15:
         return static_cast<DxfLayer>(number);
       default:
         return DxfLayer::none;
@@ -240,15 +279,20 @@ DxfStyle dxf_style(const DxfDocument& document, const DxfLimits& limits, Pattern
   if (style.pieces.empty()) loose_pieces(flattened(document, document.entities, limits, report), style);
   if (style.pieces.empty()) {
     if (!add_blocks(document, limits, true, style, report)) return {};
-    if (!style.pieces.empty()) report.note("nothing lies on the layers of AAMA and ASTM: the largest closed line of each block is taken");
+    if (!style.pieces.empty())
+      report.note(
+          "nothing lies on the layers of AAMA and ASTM: the largest closed line of each block is taken");
   }
   // Some systems state the style in every piece.
   for (const DxfPiece& piece : style.pieces)
     for (const char* key : {"units", "sample size", "style name"})
-      if (const std::string value = fact(piece.facts, {key}); !value.empty() && fact(style.facts, {key}).empty()) style.facts[key] = value;
+      if (const std::string value = fact(piece.facts, {key});
+          !value.empty() && fact(style.facts, {key}).empty())
+        style.facts[key] = value;
   split_names(style, fact(style.facts, {"sample size", "base size"}));
   for (const DxfPiece& piece : style.pieces)
-    if (!piece.size.empty() && std::find(style.sizes.begin(), style.sizes.end(), piece.size) == style.sizes.end())
+    if (!piece.size.empty() &&
+        std::find(style.sizes.begin(), style.sizes.end(), piece.size) == style.sizes.end())
       style.sizes.push_back(piece.size);
   return style;
 }

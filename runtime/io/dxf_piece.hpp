@@ -1,5 +1,6 @@
 #pragma once
-// Pattern pieces in a DXF file after AAMA-292 and ASTM D6673: what belongs to which piece and size, by layers and texts.
+// Pattern pieces in a DXF file after AAMA-292 and ASTM D6673: what belongs to which piece and size, by layers
+// and texts.
 #include <map>
 #include <optional>
 #include <string>
@@ -26,8 +27,8 @@ enum class DxfLayer : int {
   annotation = 15,
 };
 
-/// The layer that a name means: its number ("1", "01", "L1"), or a word for it ("CUT", "SEWLINE", "GRAIN"); T-, castle-,
-/// check- and U-notches (80 to 83) are notches.
+/// The layer that a name means: its number ("1", "01", "L1"), or a word for it ("CUT", "SEWLINE", "GRAIN");
+/// T-, castle-, check- and U-notches (80 to 83) are notches.
 DxfLayer dxf_layer(const std::string& name);
 
 /// Points with bulges, one after the other; a closed course goes from the last to the first.
@@ -39,7 +40,7 @@ struct DxfCourse {
 /// One piece in one size, units of the file.
 struct DxfPiece {
   std::string name, size;
-  std::size_t line = 0;  ///< of the file
+  std::size_t line = 0;                      ///< of the file
   std::map<std::string, std::string> facts;  ///< "quantity", "fabric", "annotation", ...: keys in lower case
   std::map<DxfLayer, std::vector<DxfCourse>> courses;
   std::map<DxfLayer, std::vector<Point2>> points;
@@ -51,7 +52,8 @@ struct DxfStyle {
   std::vector<std::string> sizes;            ///< in the order of the file
 };
 
-/// The pieces of a document: one of each block with a boundary; without such blocks one of each closed outline.
+/// The pieces of a document: one of each block with a boundary; without such blocks one of each closed
+/// outline.
 DxfStyle dxf_style(const DxfDocument& document, const DxfLimits& limits, PatternReport& report);
 
 /// `text` in lower case (ASCII letters).

@@ -36,7 +36,8 @@ std::string dxf_text(const std::string& text) {
     }
     const int more = c >= 0xF0 ? 3 : c >= 0xE0 ? 2 : c >= 0xC0 ? 1 : 0;
     unsigned code = more == 3 ? c & 7u : more == 2 ? c & 15u : c & 31u;
-    for (int k = 0; k < more && i + 1 < text.size(); ++k) code = (code << 6) | (static_cast<unsigned char>(text[++i]) & 63u);
+    for (int k = 0; k < more && i + 1 < text.size(); ++k)
+      code = (code << 6) | (static_cast<unsigned char>(text[++i]) & 63u);
     out += more == 0 || code > 0xFFFF ? "?" : fmt::format("\\U+{:04X}", code);
   }
   return out;
@@ -109,7 +110,8 @@ Drawn drawn(const CutLine& line) {
   Drawn out;
   for (const Point2& p : line)
     if (out.points.empty() || (out.points.back() - p).norm() > 1e-7) out.points.push_back(p);
-  while (out.points.size() > 1 && (out.points.front() - out.points.back()).norm() <= 1e-7) out.points.pop_back();
+  while (out.points.size() > 1 && (out.points.front() - out.points.back()).norm() <= 1e-7)
+    out.points.pop_back();
   const std::size_t n = out.points.size();
   for (std::size_t i = 0; i < n; ++i) {
     const Point2 u = out.points[i] - out.points[(i + n - 1) % n], v = out.points[(i + 1) % n] - out.points[i];
@@ -126,10 +128,12 @@ std::vector<design::Edge> hole_edges(const Panel& panel, const design::Hole& hol
 
 class PieceWriter {
  public:
-  PieceWriter(const design::Garment& garment, const Panel& panel, Writer& out) : garment_(garment), panel_(panel), out_(out) {}
+  PieceWriter(const design::Garment& garment, const Panel& panel, Writer& out)
+      : garment_(garment), panel_(panel), out_(out) {}
 
   void write() {
-    const bool allowed = std::any_of(panel_.edges.begin(), panel_.edges.end(), [](const auto& e) { return e.allowance > 0; });
+    const bool allowed =
+        std::any_of(panel_.edges.begin(), panel_.edges.end(), [](const auto& e) { return e.allowance > 0; });
     const Drawn stitch = drawn(panel_.edges);
     boundary_ = allowed ? drawn(cut_lines(panel_).front()) : stitch;
     for (const Point2& p : boundary_.points) low_ = low_.cwiseMin(p), high_ = high_.cwiseMax(p);
@@ -140,9 +144,11 @@ class PieceWriter {
     if (allowed) out_.polyline(DxfLayer::sew, stitch.points, true);
     write_notches();
     write_grain();
-    for (const design::Edge& line : panel_.lines) out_.polyline(DxfLayer::internal, line.curve.polyline(kChord), false);
+    for (const design::Edge& line : panel_.lines)
+      out_.polyline(DxfLayer::internal, line.curve.polyline(kChord), false);
     write_darts();
-    for (const design::Hole& hole : panel_.holes) out_.polyline(DxfLayer::cutout, drawn(hole_edges(panel_, hole)).points, true);
+    for (const design::Hole& hole : panel_.holes)
+      out_.polyline(DxfLayer::cutout, drawn(hole_edges(panel_, hole)).points, true);
     for (const design::InteriorPoint& point : panel_.points) out_.mark(DxfLayer::drill, point.point);
   }
 
@@ -201,11 +207,14 @@ class PieceWriter {
       if (edge < 0) continue;
       const geometry::Curve& curve = panel_.edges[static_cast<std::size_t>(edge)].curve;
       const Point2 tip = dart_tip(panel_, dart);
-      out_.polyline(DxfLayer::internal, {curve.point_at(dart.at - dart.width / 2), tip, curve.point_at(dart.at + dart.width / 2)}, false);
+      out_.polyline(DxfLayer::internal,
+                    {curve.point_at(dart.at - dart.width / 2), tip, curve.point_at(dart.at + dart.width / 2)},
+                    false);
       out_.mark(DxfLayer::drill, tip);
     }
     for (const design::InsideDart& dart : panel_.inside_darts) {
-      const Point2 d = dart.to - dart.from, across = Point2(-d.y(), d.x()).normalized() * (dart.width / 2), wide = dart.from + dart.at * d;
+      const Point2 d = dart.to - dart.from, across = Point2(-d.y(), d.x()).normalized() * (dart.width / 2),
+                   wide = dart.from + dart.at * d;
       out_.polyline(DxfLayer::internal, {dart.from, wide + across, dart.to, wide - across}, true);
       for (const Point2& tip : {dart.from, dart.to}) out_.mark(DxfLayer::drill, tip);
     }
@@ -221,7 +230,10 @@ class PieceWriter {
 /// Letters, digits and underscores, unique, at most 31 of them as R12 has it.
 std::string block_name(const std::string& name, std::set<std::string>& taken) {
   std::string base;
-  for (char c : name.substr(0, 24)) base += (c >= 'a' && c <= 'z') ? static_cast<char>(c - 'a' + 'A') : (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ? c : '_';
+  for (char c : name.substr(0, 24))
+    base += (c >= 'a' && c <= 'z')                             ? static_cast<char>(c - 'a' + 'A')
+            : (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ? c
+                                                               : '_';
   std::string candidate = base;
   for (int n = 2; !taken.insert(candidate).second; ++n) candidate = fmt::format("{}_{}", base, n);
   return candidate;
@@ -230,7 +242,8 @@ std::string block_name(const std::string& name, std::set<std::string>& taken) {
 Findings lost(const design::Garment& garment) {
   std::string names;
   auto add = [&](const std::string& what) { names += (names.empty() ? "" : ", ") + what; };
-  if (!garment.seams.empty()) add(garment.seams.size() == 1 ? "the seam" : fmt::format("the {} seams", garment.seams.size()));
+  if (!garment.seams.empty())
+    add(garment.seams.size() == 1 ? "the seam" : fmt::format("the {} seams", garment.seams.size()));
   for (const Panel& panel : garment.panels)
     if (!panel.pleats.empty()) {
       add("pleats");
@@ -240,7 +253,11 @@ Findings lost(const design::Garment& garment) {
   if (!garment.layers.empty() || !garment.pads.empty()) add("layers and pads");
   if (!garment.buttons.empty() || !garment.zips.empty()) add("buttons and zips");
   if (names.empty()) return {};
-  return {{"G0906", Severity::warning, "a DXF pattern cannot hold " + names, {}, "keep the script beside it: it alone says these things"}};
+  return {{"G0906",
+           Severity::warning,
+           "a DXF pattern cannot hold " + names,
+           {},
+           "keep the script beside it: it alone says these things"}};
 }
 
 }  // namespace
@@ -276,8 +293,12 @@ DxfText write_dxf(const design::Garment& garment) {
   }
   out.pair(0, "ENDSEC");
   section("ENTITIES");
-  const std::string facts[] = {"Style Name: " + garment.title, fmt::format("Sample Size: {}", kSize), "Units: METRIC", "Author: garment",
-                               std::string("Product: garment ") + GARMENT_VERSION, "Version: ASTM D6673"};
+  const std::string facts[] = {"Style Name: " + garment.title,
+                               fmt::format("Sample Size: {}", kSize),
+                               "Units: METRIC",
+                               "Author: garment",
+                               std::string("Product: garment ") + GARMENT_VERSION,
+                               "Version: ASTM D6673"};
   double y = -0.02;
   for (const std::string& fact : facts) {
     out.text(DxfLayer::boundary, {0, y}, fact);

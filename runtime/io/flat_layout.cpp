@@ -10,7 +10,8 @@ void lay_flat(design::Garment& garment) {
   for (design::Panel& panel : garment.panels) {
     design::Point2 low(1e300, 1e300), high(-1e300, -1e300);
     for (const design::Edge& edge : panel.edges)
-      for (const design::Point2& p : edge.curve.polyline(1e-4)) low = low.cwiseMin(p), high = high.cwiseMax(p);
+      for (const design::Point2& p : edge.curve.polyline(1e-4))
+        low = low.cwiseMin(p), high = high.cwiseMax(p);
     // To a tenth of a micrometre: a shift by a round number keeps round numbers round.
     for (int axis = 0; axis < 2; ++axis) low[axis] = std::round(low[axis] * 1e7) / 1e7;
     const Eigen::Isometry2d shift(Eigen::Translation2d(-low.x(), -low.y()));

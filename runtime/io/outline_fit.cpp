@@ -12,14 +12,14 @@ namespace {
 
 using design::Point2;
 
-constexpr double kMeet = 1e-4;       // m; ends as near are one
-constexpr double kDouble = 1e-6;     // m; nearer points are drawn twice
-constexpr double kShortest = 1.01e-4;  // m; an edge of a script is longer
-constexpr double kStraight = 2e-5;   // m
-constexpr double kMatch = 3e-4;      // m, of a turn point and its vertex
+constexpr double kMeet = 1e-4;                               // m; ends as near are one
+constexpr double kDouble = 1e-6;                             // m; nearer points are drawn twice
+constexpr double kShortest = 1.01e-4;                        // m; an edge of a script is longer
+constexpr double kStraight = 2e-5;                           // m
+constexpr double kMatch = 3e-4;                              // m, of a turn point and its vertex
 constexpr double kCorner = 20, kSharp = 75, kUnmarked = 30;  // degrees
-constexpr double kLong = 0.025;      // m; a straight of its own within a run
-constexpr double kLonger = 3;        // times its neighbours
+constexpr double kLong = 0.025;                              // m; a straight of its own within a run
+constexpr double kLonger = 3;                                // times its neighbours
 constexpr std::size_t kMostThrough = 64;
 constexpr double kAreaAgrees = 2e-3;
 constexpr std::size_t kMostPairs = 50'000'000;
@@ -46,11 +46,13 @@ DxfCourse cleaned(const DxfCourse& course, double apart = kDouble) {
     else
       out.points.push_back(v);
   }
-  if (!out.closed && out.points.size() > 3 && (out.points.front().point - out.points.back().point).norm() < kMeet) {
+  if (!out.closed && out.points.size() > 3 &&
+      (out.points.front().point - out.points.back().point).norm() < kMeet) {
     out.points.pop_back();
     out.closed = true;
   }
-  while (out.closed && out.points.size() > 1 && (out.points.front().point - out.points.back().point).norm() < apart)
+  while (out.closed && out.points.size() > 1 &&
+         (out.points.front().point - out.points.back().point).norm() < apart)
     out.points.pop_back();
   return out;
 }
@@ -70,7 +72,8 @@ void append(std::vector<Point2>& out, const Point2& a, const Point2& b, double b
     out.push_back(b);
     return;
   }
-  const std::vector<Point2> arc = geometry::Curve(a, b, geometry::Arc{sagitta(a, b, bulge)}).polyline(kStraight);
+  const std::vector<Point2> arc =
+      geometry::Curve(a, b, geometry::Arc{sagitta(a, b, bulge)}).polyline(kStraight);
   out.insert(out.end(), arc.begin() + (arc.size() > 1 ? 1 : 0), arc.end());
 }
 
@@ -196,7 +199,8 @@ class Outline {
     }
     if (std::count(corner_.begin(), corner_.end(), 1) == 0) corner_[0] = 1;
     if (std::count(corner_.begin(), corner_.end(), 1) == 1) {
-      const auto only = static_cast<std::size_t>(std::find(corner_.begin(), corner_.end(), 1) - corner_.begin());
+      const auto only =
+          static_cast<std::size_t>(std::find(corner_.begin(), corner_.end(), 1) - corner_.begin());
       corner_[(only + n / 2) % n] = 1;
     }
   }
@@ -222,7 +226,8 @@ class Outline {
       return {a.point, b.point, geometry::Arc{sagitta(a.point, b.point, a.bulge)}};
     }
     std::vector<Point2> points{a.point};
-    for (std::size_t k = 0; k < steps; ++k) append(points, at(from + k).point, at(from + k + 1).point, at(from + k).bulge);
+    for (std::size_t k = 0; k < steps; ++k)
+      append(points, at(from + k).point, at(from + k + 1).point, at(from + k).bulge);
     return smooth ? fitted(points) : polygonal(points);
   }
 
@@ -248,7 +253,9 @@ std::vector<DxfCourse> chained(std::vector<DxfCourse> courses, double meet, std:
     used[i] = 1;
     DxfCourse way = open[i];
     for (int end = 0; end < 2; ++end) {  // on from the end, then from the start
-      for (bool longer = true; longer && !(way.points.size() > 2 && (way.points.front().point - way.points.back().point).norm() < meet);) {
+      for (bool longer = true;
+           longer &&
+           !(way.points.size() > 2 && (way.points.front().point - way.points.back().point).norm() < meet);) {
         longer = false;
         const Point2 at = way.points.back().point;
         for (std::size_t k = 0; k < open.size() && !longer; ++k) {
@@ -287,7 +294,8 @@ double course_area(const DxfCourse& course) {
   return area;
 }
 
-std::vector<design::Edge> outline_of(DxfCourse loop, const std::vector<Point2>& turns, const std::vector<Point2>& curves) {
+std::vector<design::Edge> outline_of(DxfCourse loop, const std::vector<Point2>& turns,
+                                     const std::vector<Point2>& curves) {
   loop = cleaned(loop, kShortest);
   if (loop.points.size() < 2) return {};
   double area = course_area(loop);
@@ -307,7 +315,8 @@ geometry::Curve curve_of(const DxfCourse& course) {
   std::vector<Point2> points = sampled(course);
   if (course.closed) points.push_back(points.front());
   bool corners = course.closed;
-  for (std::size_t i = 1; i + 1 < points.size(); ++i) corners = corners || turn_at(points[i - 1], points[i], points[i + 1]) > kUnmarked;
+  for (std::size_t i = 1; i + 1 < points.size(); ++i)
+    corners = corners || turn_at(points[i - 1], points[i], points[i + 1]) > kUnmarked;
   return corners ? polygonal(points) : fitted(points);
 }
 
@@ -315,7 +324,9 @@ bool within(const std::vector<Point2>& polygon, const Point2& p) {
   bool in = false;
   for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
     const Point2 &a = polygon[i], &b = polygon[j];
-    if ((a.y() > p.y()) != (b.y() > p.y()) && p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x())) in = !in;
+    if ((a.y() > p.y()) != (b.y() > p.y()) &&
+        p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()))
+      in = !in;
   }
   return in;
 }

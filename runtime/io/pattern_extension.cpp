@@ -52,13 +52,16 @@ ordered_json fabric_json(const design::Fabric& fabric) {
   if (!fabric.source.empty()) out["source"] = fabric.source;
   each_figure(fabric, [&](const std::string& key, double value) { out[key] = value; });
   ordered_json color = ordered_json::array();  // eight bits each, as a script has them
-  for (double channel : fabric.color) color.push_back(std::round(std::round(channel * 255) / 255 * 1e4) / 1e4);
+  for (double channel : fabric.color)
+    color.push_back(std::round(std::round(channel * 255) / 255 * 1e4) / 1e4);
   out["color"] = std::move(color);
   return out;
 }
 
-/// Place of an arc length of an outline edge in the file: number of its edge, and centimetres from that one's start.
-std::optional<std::pair<int, double>> place_in_file(const CutPanel& cut, const WrittenPanel& written, int edge, double at) {
+/// Place of an arc length of an outline edge in the file: number of its edge, and centimetres from that one's
+/// start.
+std::optional<std::pair<int, double>> place_in_file(const CutPanel& cut, const WrittenPanel& written,
+                                                    int edge, double at) {
   for (std::size_t k = 0; k < cut.edges.size(); ++k) {
     const CutEdge& e = cut.edges[k];
     if (e.edge != edge || e.dart >= 0 || at < e.from - 1e-9 || at > e.to + 1e-9) continue;
@@ -68,7 +71,8 @@ std::optional<std::pair<int, double>> place_in_file(const CutPanel& cut, const W
   return std::nullopt;
 }
 
-ordered_json panel_json(const design::Garment& garment, std::size_t p, const CutPanel& cut, const WrittenPanel& written) {
+ordered_json panel_json(const design::Garment& garment, std::size_t p, const CutPanel& cut,
+                        const WrittenPanel& written) {
   const design::Panel& panel = garment.panels[p];
   ordered_json out;
   if (panel.fabric >= 0 && panel.fabric < static_cast<int>(garment.fabrics.size()))
@@ -79,24 +83,28 @@ ordered_json panel_json(const design::Garment& garment, std::size_t p, const Cut
   std::set<std::string> taken;
   for (std::size_t k = 0; k < cut.edges.size(); ++k) {
     const CutEdge& e = cut.edges[k];
-    const std::string& name =
-        e.dart >= 0 ? panel.darts[static_cast<std::size_t>(e.dart)].name : panel.edges[static_cast<std::size_t>(e.edge)].name;
+    const std::string& name = e.dart >= 0 ? panel.darts[static_cast<std::size_t>(e.dart)].name
+                                          : panel.edges[static_cast<std::size_t>(e.edge)].name;
     names[std::to_string(written.edges[k])] = unique_name(identifier(name, "edge"), taken);
   }
   for (const design::Notch& notch : panel.notches)
     if (const int edge = outline_edge(panel, notch.edge); edge >= 0)
       if (const auto place = place_in_file(cut, written, edge, notch.at))
-        notches.push_back({{"name", identifier(notch.name, "notch")}, {"edge", place->first}, {"at", place->second}});
+        notches.push_back(
+            {{"name", identifier(notch.name, "notch")}, {"edge", place->first}, {"at", place->second}});
   out["edges"] = std::move(names);
   if (!notches.empty()) out["notches"] = std::move(notches);
   return out;
 }
 
-const char* relation_of(double ratio) { return ratio == 1 ? "plain" : ratio >= 1.5 ? "gather" : ratio > 1 ? "ease" : "stretch"; }
+const char* relation_of(double ratio) {
+  return ratio == 1 ? "plain" : ratio >= 1.5 ? "gather" : ratio > 1 ? "ease" : "stretch";
+}
 
 ordered_json block(const design::Garment& garment, const CutGarment& cut, const WrittenPattern& written) {
   ordered_json out{{"edition", 1}};
-  ordered_json fabrics = ordered_json::array(), panels = ordered_json::object(), seams = ordered_json::array();
+  ordered_json fabrics = ordered_json::array(), panels = ordered_json::object(),
+               seams = ordered_json::array();
   for (const design::Fabric& fabric : garment.fabrics) fabrics.push_back(fabric_json(fabric));
   for (std::size_t p = 0; p < garment.panels.size(); ++p)
     panels[written.panels[p].key] = panel_json(garment, p, cut.panels[p], written.panels[p]);
@@ -104,7 +112,10 @@ ordered_json block(const design::Garment& garment, const CutGarment& cut, const 
     const design::Seam& seam = garment.seams[s];
     if (written.stitches[s].empty()) continue;
     const double ratio = seam.ratio.empty() || !std::isfinite(seam.ratio[0]) ? 1 : seam.ratio[0];
-    seams.push_back({{"name", identifier(seam.name, "seam")}, {"stitches", written.stitches[s]}, {"relation", relation_of(ratio)}, {"ratio", ratio}});
+    seams.push_back({{"name", identifier(seam.name, "seam")},
+                     {"stitches", written.stitches[s]},
+                     {"relation", relation_of(ratio)},
+                     {"ratio", ratio}});
   }
   out["fabrics"] = std::move(fabrics);
   out["panels"] = std::move(panels);
@@ -116,8 +127,8 @@ ordered_json block(const design::Garment& garment, const CutGarment& cut, const 
 /// Reads the parts of a block, each on its own.
 class Reader {
  public:
-  Reader(const std::vector<FilePanel>& files, const std::vector<std::size_t>& numbers, design::Garment& garment,
-         PatternReport& report)
+  Reader(const std::vector<FilePanel>& files, const std::vector<std::size_t>& numbers,
+         design::Garment& garment, PatternReport& report)
       : files_(files), numbers_(numbers), garment_(garment), report_(report) {}
 
   void read(const json& value) {
@@ -129,7 +140,8 @@ class Reader {
         if (const json* panel = member(*panels, files_[p].file_name.c_str())) read_panel(*panel, p);
     }
     if (const json* seams = member(value, "seams")) {
-      if (!seams->is_array() || seams->size() > kMost) return refuse("`seams`", *seams, "a list of at most 4096");
+      if (!seams->is_array() || seams->size() > kMost)
+        return refuse("`seams`", *seams, "a list of at most 4096");
       last_.clear();
       for (std::size_t s = 0; s < numbers_.size(); ++s) seam_of_[numbers_[s]] = s;
       for (const design::Seam& seam : garment_.seams) names_.insert(seam.name);
@@ -141,8 +153,9 @@ class Reader {
 
  private:
   void refuse(const std::string& what, const json& found, const char* expected) {
-    report_.warning("G0958", fmt::format("block `{}`: {} is {}, expected {}; it is passed over", kExtension, what,
-                                         describe(found), expected),
+    report_.warning("G0958",
+                    fmt::format("block `{}`: {} is {}, expected {}; it is passed over", kExtension, what,
+                                describe(found), expected),
                     "correct it, or remove the block: the pattern itself does not need it");
   }
 
@@ -154,7 +167,8 @@ class Reader {
 
   void read_fabrics(const json* list) {
     if (!list) return;
-    if (!list->is_array() || list->empty() || list->size() > 1000) return refuse("`fabrics`", *list, "a list of fabrics");
+    if (!list->is_array() || list->empty() || list->size() > 1000)
+      return refuse("`fabrics`", *list, "a list of fabrics");
     std::vector<design::Fabric> fabrics;
     for (const json& item : *list) {
       design::Fabric fabric = garment_.fabrics[0];
@@ -186,7 +200,8 @@ class Reader {
     const auto index = index_below(number, files_[p].edges.size());
     if (index && files_[p].edges[static_cast<std::size_t>(*index)].edge >= 0)
       return &files_[p].edges[static_cast<std::size_t>(*index)];
-    refuse("an edge of panel " + in_ticks(files_[p].file_name), number, "the number of an edge of some length");
+    refuse("an edge of panel " + in_ticks(files_[p].file_name), number,
+           "the number of an edge of some length");
     return nullptr;
   }
 
@@ -195,12 +210,14 @@ class Reader {
     if (const json* fabric = member(value, "fabric"))
       for (std::size_t f = 0; f < garment_.fabrics.size(); ++f)
         if (*fabric == garment_.fabrics[f].name) panel.fabric = static_cast<int>(f);
-    if (const json* grain = member(value, "grain"); grain && grain->is_number() && std::fabs(grain->get<double>()) <= 360)
+    if (const json* grain = member(value, "grain");
+        grain && grain->is_number() && std::fabs(grain->get<double>()) <= 360)
       panel.grain_angle = (files_[p].back ? -1 : 1) * grain->get<double>() / kDegrees;
     if (const json* names = member(value, "edges"); names && names->is_object()) name_edges(*names, p);
     const json* notches = member(value, "notches");
     if (!notches) return;
-    if (!notches->is_array() || notches->size() > kMost) return refuse("`notches`", *notches, "a list of at most 4096");
+    if (!notches->is_array() || notches->size() > kMost)
+      return refuse("`notches`", *notches, "a list of at most 4096");
     last_.clear();
     std::set<std::string> taken;
     for (const design::Edge& edge : panel.edges) taken.insert(edge.name);
@@ -231,7 +248,8 @@ class Reader {
       const json* name = member(names, std::to_string(i).c_str());
       const int edge = files_[p].edges[i].edge;
       if (edge < 0 || !name || !name->is_string()) continue;
-      named[static_cast<std::size_t>(edge)] = fresh(identifier(name->get<std::string>().substr(0, 200), "edge"), taken);
+      named[static_cast<std::size_t>(edge)] =
+          fresh(identifier(name->get<std::string>().substr(0, 200), "edge"), taken);
     }
     for (std::size_t e = 0; e < named.size(); ++e)
       panel.edges[e].name = named[e].empty() ? fresh(panel.edges[e].name, taken) : named[e];
@@ -243,7 +261,8 @@ class Reader {
     if (!name || !stitches || !stitches->is_array())
       return refuse("a seam", value, "an object of `name`, `stitches` and `ratio`");
     for (const json& number : *stitches) {
-      const auto found = number.is_number_unsigned() ? seam_of_.find(number.get<std::size_t>()) : seam_of_.end();
+      const auto found =
+          number.is_number_unsigned() ? seam_of_.find(number.get<std::size_t>()) : seam_of_.end();
       if (found == seam_of_.end()) continue;
       design::Seam& seam = garment_.seams[found->second];
       names_.erase(seam.name);
@@ -332,7 +351,8 @@ std::vector<std::string> not_written(const design::Garment& garment, const CutGa
         lost.push_back("the allowances of " + panel.name);
         break;
       }
-    if (panel.placement.kind == design::Placement::Kind::on_part || panel.placement.kind == design::Placement::Kind::around)
+    if (panel.placement.kind == design::Placement::Kind::on_part ||
+        panel.placement.kind == design::Placement::Kind::around)
       lost.push_back(fmt::format("the place of {} on {}", panel.name, panel.placement.body));
   }
   add("hem", garment.hems);
@@ -346,8 +366,9 @@ std::vector<std::string> not_written(const design::Garment& garment, const CutGa
   return lost;
 }
 
-void read_extension(const json& root, const std::vector<FilePanel>& files, const std::vector<std::size_t>& numbers,
-                    design::Garment& garment, PatternReport& report) {
+void read_extension(const json& root, const std::vector<FilePanel>& files,
+                    const std::vector<std::size_t>& numbers, design::Garment& garment,
+                    PatternReport& report) {
   if (const json* value = member(root, kExtension)) Reader(files, numbers, garment, report).read(*value);
 }
 

@@ -30,7 +30,8 @@ PanelLayout panel_layout(const json& value, const FilePanel& file, const std::st
   const json& edges = value.at("edges");
   for (std::size_t i = 0; i < file.edges.size(); ++i) {
     const json& ends = edges[i].at("endpoints");
-    layout.edges.push_back({ends[0].get<int>(), ends[1].get<int>(), file.edges[i].edge, file.edges[i].turned});
+    layout.edges.push_back(
+        {ends[0].get<int>(), ends[1].get<int>(), file.edges[i].edge, file.edges[i].turned});
     json words = edges[i];
     words.erase("endpoints");
     layout.words.push_back(std::move(words));
@@ -87,7 +88,8 @@ json panel_line(PanelLayout layout, const json& plain) {
   }
   json at = json::object(), words = json::object();
   for (std::size_t v = 0; v < layout.vertices.size(); ++v)
-    if (!same_numbers(layout.vertices[v], plain.at("vertices")[v], 1e-7)) at[std::to_string(v)] = layout.vertices[v];
+    if (!same_numbers(layout.vertices[v], plain.at("vertices")[v], 1e-7))
+      at[std::to_string(v)] = layout.vertices[v];
   for (std::size_t e = 0; e < layout.edges.size(); ++e) {
     json own = layout.words[e];
     const json& written = plain.at("edges")[e];
@@ -119,7 +121,8 @@ constexpr int kMost = 4096;
 bool read_edges(const json& list, PanelLayout& layout) {
   for (const json& item : list) {
     if (!item.is_array() || item.size() < 3) return false;
-    auto start = whole(item[0], 0, kMost), end = whole(item[1], 0, kMost), outline = whole(item[2], -1, kMost);
+    auto start = whole(item[0], 0, kMost), end = whole(item[1], 0, kMost),
+         outline = whole(item[2], -1, kMost);
     if (!start || !end || !outline) return false;
     layout.edges.push_back({*start, *end, *outline, item.size() > 3});
   }
@@ -168,7 +171,8 @@ std::optional<PanelLayout> panel_of_line(const json& line) {
 void read_file_line(const json& line, PatternLayout& layout) {
   layout.root = line.at("file");
   if (const json* pairs = member(line, "pairs")) layout.pairs = *pairs == true;
-  if (const json* raised = member(line, "raised"); raised && raised->is_number()) layout.raised = raised->get<double>();
+  if (const json* raised = member(line, "raised"); raised && raised->is_number())
+    layout.raised = raised->get<double>();
   if (const json* properties = member(layout.root, "properties")) {
     const json* scale = member(*properties, "units_in_meter");
     if (scale && scale->is_number() && scale->get<double>() >= 1e-3 && scale->get<double>() <= 1e6)
@@ -180,7 +184,8 @@ void read_file_line(const json& line, PatternLayout& layout) {
   if (!stitches || !stitches->is_array()) return;
   for (const json& item : *stitches) {
     StitchLayout stitch;
-    if (const json* seam = member(item, "seam"); seam && seam->is_string()) stitch.seam = seam->get<std::string>();
+    if (const json* seam = member(item, "seam"); seam && seam->is_string())
+      stitch.seam = seam->get<std::string>();
     if (const json* swapped = member(item, "swapped")) stitch.swapped = *swapped == true;
     if (const json* words = member(item, "words")) stitch.words = *words;
     layout.stitches.push_back(std::move(stitch));
@@ -189,8 +194,9 @@ void read_file_line(const json& line, PatternLayout& layout) {
 
 }  // namespace
 
-PatternLayout pattern_layout(const json& root, const PatternUnits& units, const std::vector<FilePanel>& panels,
-                             const design::Garment& garment, const std::vector<std::size_t>& numbers) {
+PatternLayout pattern_layout(const json& root, const PatternUnits& units,
+                             const std::vector<FilePanel>& panels, const design::Garment& garment,
+                             const std::vector<std::size_t>& numbers) {
   PatternLayout layout;
   layout.units = units;
   layout.root = root;
@@ -198,7 +204,8 @@ PatternLayout pattern_layout(const json& root, const PatternUnits& units, const 
   layout.root["pattern"].erase("panels");
   layout.pairs = has_pairs(pattern.at("panels"));
   for (std::size_t p = 0; p < panels.size(); ++p)
-    layout.panels.push_back(panel_layout(pattern.at("panels").at(panels[p].file_name), panels[p], garment.panels[p].name));
+    layout.panels.push_back(
+        panel_layout(pattern.at("panels").at(panels[p].file_name), panels[p], garment.panels[p].name));
   const json* stitches = member(pattern, "stitches");
   if (!stitches) return layout;
   layout.root["pattern"]["stitches"] = json::array();

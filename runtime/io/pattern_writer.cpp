@@ -49,8 +49,8 @@ bool same_shape(const Curve::Shape& a, const Curve::Shape& b) {
 
 class PanelWriter {
  public:
-  PanelWriter(const design::Panel& panel, const CutPanel& cut, const PanelLayout* layout, const PatternLayout* file,
-              WrittenPanel& written)
+  PanelWriter(const design::Panel& panel, const CutPanel& cut, const PanelLayout* layout,
+              const PatternLayout* file, WrittenPanel& written)
       : panel_(panel), cut_(cut), written_(written) {
     if (file) units_ = file->units, pairs_ = file->pairs, raised_ = file->raised;
     written.key = layout ? layout->key : panel.name;
@@ -79,7 +79,8 @@ class PanelWriter {
     out["edges"] = std::move(edges);
     if (!own_.rest.contains("label") && !panel_.label.empty()) out["label"] = panel_.label;
     for (const auto& [key, value] : own_.rest.items())
-      if (!out.contains(key) && !(value.is_null() && (key == "translation" || key == "rotation"))) out[key] = value;
+      if (!out.contains(key) && !(value.is_null() && (key == "translation" || key == "rotation")))
+        out[key] = value;
     return out;
   }
 
@@ -91,7 +92,8 @@ class PanelWriter {
     if (own_.edges.empty()) return true;
     std::vector<int> seen(cut_.edges.size(), 0);
     for (const EdgeLayout& e : own_.edges)
-      if (e.outline >= static_cast<int>(seen.size()) || (e.outline >= 0 && ++seen[static_cast<std::size_t>(e.outline)] > 1))
+      if (e.outline >= static_cast<int>(seen.size()) ||
+          (e.outline >= 0 && ++seen[static_cast<std::size_t>(e.outline)] > 1))
         return false;
     return std::count(seen.begin(), seen.end(), 1) == static_cast<std::ptrdiff_t>(seen.size());
   }
@@ -123,7 +125,9 @@ class PanelWriter {
 
   void make_vertices() {
     std::size_t n = own_.vertices.is_array() ? own_.vertices.size() : 0;
-    for (const EdgeLayout& e : own_.edges) n = std::max<std::size_t>({n, static_cast<std::size_t>(e.start) + 1, static_cast<std::size_t>(e.end) + 1});
+    for (const EdgeLayout& e : own_.edges)
+      n = std::max<std::size_t>(
+          {n, static_cast<std::size_t>(e.start) + 1, static_cast<std::size_t>(e.end) + 1});
     vertices_.assign(n, Point2(0, 0));
     std::vector<bool> known(n, false);
     auto put = [&](int v, const Point2& p) {
@@ -176,12 +180,14 @@ class PanelWriter {
   /// True if the file's words, read between its vertices, give the curve of the garment.
   bool means(const json& stated, const EdgeLayout& e) const {
     PatternReport ignored;
-    const auto shape = read_pattern_curve(&stated, vertex(e.start), vertex(e.end), units_, PatternLimits{}, "", ignored);
+    const auto shape =
+        read_pattern_curve(&stated, vertex(e.start), vertex(e.end), units_, PatternLimits{}, "", ignored);
     return shape && same_shape(*shape, drawn(e).shape());
   }
 
   json pair(const Curve& curve, const Point2& control) const {
-    if (!units_.relative_curves) return {rounded(control.x() * units_.per_metre), rounded(control.y() * units_.per_metre)};
+    if (!units_.relative_curves)
+      return {rounded(control.x() * units_.per_metre), rounded(control.y() * units_.per_metre)};
     const Point2 d = curve.end() - curve.start(), q(-d.y(), d.x()), c = control - curve.start();
     const double square = d.squaredNorm();
     return {c.dot(d) / square, c.dot(q) / square};
@@ -194,11 +200,13 @@ class PanelWriter {
       return pairs_ ? control : json{{"type", "quadratic"}, {"params", json::array({control})}};
     }
     if (const auto* c = std::get_if<geometry::Cubic>(&curve.shape()))
-      return {{"type", "cubic"}, {"params", json::array({pair(curve, c->control_1), pair(curve, c->control_2)})}};
+      return {{"type", "cubic"},
+              {"params", json::array({pair(curve, c->control_1), pair(curve, c->control_2)})}};
     if (const auto* arc = std::get_if<geometry::Arc>(&curve.shape()); arc && arc->bulge != 0) {
       const double half = (curve.end() - curve.start()).norm() / 2, sagitta = std::fabs(arc->bulge);
       const double radius = (half * half / sagitta + sagitta) / 2;
-      return {{"type", "circle"}, {"params", {radius * units_.per_metre, sagitta > half ? 1 : 0, arc->bulge < 0 ? 1 : 0}}};
+      return {{"type", "circle"},
+              {"params", {radius * units_.per_metre, sagitta > half ? 1 : 0, arc->bulge < 0 ? 1 : 0}}};
     }
     return nullptr;
   }
@@ -220,7 +228,8 @@ class PanelWriter {
       R.col(0) = -R.col(0);  // R Ry(180 deg) is its own inverse
       R.col(2) = -R.col(2);
     }
-    const Eigen::Vector3d t = (panel_.placement.translation - Eigen::Vector3d(0, raised_, 0)) * units_.per_metre;
+    const Eigen::Vector3d t =
+        (panel_.placement.translation - Eigen::Vector3d(0, raised_, 0)) * units_.per_metre;
     const json *stated_t = member(own_.rest, "translation"), *stated_R = member(own_.rest, "rotation");
     const auto t0 = triple(stated_t), R0 = triple(stated_R);
     if (t0 && (*t0 - t).norm() < kSamePlace * units_.per_metre)
@@ -254,7 +263,8 @@ class PatternWriter {
     ordered_json pattern = ordered_json::object(), panels = ordered_json::object();
     written_.panels.resize(garment_.panels.size());
     for (std::size_t p = 0; p < garment_.panels.size(); ++p) {
-      PanelWriter writer(garment_.panels[p], cut_.panels[p], layout_of(garment_.panels[p].name), layout_, written_.panels[p]);
+      PanelWriter writer(garment_.panels[p], cut_.panels[p], layout_of(garment_.panels[p].name), layout_,
+                         written_.panels[p]);
       panels[written_.panels[p].key] = writer.write();
     }
     pattern["panels"] = std::move(panels);
@@ -321,7 +331,8 @@ class PatternWriter {
     if (!words.is_array() || words.size() != made.size()) return made;
     for (int i = 0; i < 2; ++i)
       for (const char* key : {"panel", "edge"})
-        if (!words[static_cast<std::size_t>(i)].is_object() || !words[static_cast<std::size_t>(i)].contains(key) ||
+        if (!words[static_cast<std::size_t>(i)].is_object() ||
+            !words[static_cast<std::size_t>(i)].contains(key) ||
             words[static_cast<std::size_t>(i)][key] != json(made[static_cast<std::size_t>(i)][key]))
           return made;
     return ordered_json(words);
@@ -334,12 +345,14 @@ class PatternWriter {
     auto add = [&](std::size_t k, bool swapped, const json& words) {
       done[k] = true;
       if (cut_.stitches[k].seam >= 0)
-        written_.stitches[static_cast<std::size_t>(cut_.stitches[k].seam)].push_back(static_cast<int>(out.size()));
+        written_.stitches[static_cast<std::size_t>(cut_.stitches[k].seam)].push_back(
+            static_cast<int>(out.size()));
       out.push_back(worded(stitch_of(cut_.stitches[k], swapped), words));
     };
     std::map<std::string, std::vector<std::size_t>> of_seam;
     for (std::size_t k = 0; k < cut_.stitches.size(); ++k)
-      if (const int s = cut_.stitches[k].seam; s >= 0) of_seam[garment_.seams[static_cast<std::size_t>(s)].name].push_back(k);
+      if (const int s = cut_.stitches[k].seam; s >= 0)
+        of_seam[garment_.seams[static_cast<std::size_t>(s)].name].push_back(k);
     if (layout_)
       for (const StitchLayout& stitch : layout_->stitches) {
         if (stitch.seam.empty()) {
@@ -362,7 +375,10 @@ class PatternWriter {
     std::string names;
     for (std::size_t i = 0; i < lost.size() && i < 6; ++i) names += (i > 0 ? ", " : "") + lost[i];
     if (lost.size() > 6) names += fmt::format(" and {} more", lost.size() - 6);
-    findings.push_back({"G0906", Severity::warning, "a sewing-pattern specification cannot hold " + names, {},
+    findings.push_back({"G0906",
+                        Severity::warning,
+                        "a sewing-pattern specification cannot hold " + names,
+                        {},
                         "keep the script beside it: it alone says these things"});
   }
 

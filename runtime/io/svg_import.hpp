@@ -12,10 +12,10 @@ namespace garment::io {
 
 struct SvgLimits {
   std::size_t max_bytes = 64u << 20;
-  int max_depth = 64;              ///< of groups
+  int max_depth = 64;  ///< of groups
   std::size_t max_curves = 200'000;
   std::size_t max_panels = 4096;
-  std::size_t max_edges = 4096;    ///< of one panel
+  std::size_t max_edges = 4096;  ///< of one panel
 };
 
 struct SvgOptions {
@@ -31,7 +31,8 @@ struct SvgResult {
   std::vector<std::string> notes;
 };
 
-/// Reads a drawing. Never throws and never hangs, whatever the bytes are. The panels lie side by side, as drawn, face up.
+/// Reads a drawing. Never throws and never hangs, whatever the bytes are. The panels lie side by side, as
+/// drawn, face up.
 SvgResult read_svg(std::string_view bytes, const SvgOptions& options = {});
 
 }  // namespace garment::io

@@ -17,7 +17,8 @@ class Scanner {
   explicit Scanner(std::string_view text) : text_(text) {}
 
   void blanks() {
-    while (!text_.empty() && (text_[0] == ' ' || text_[0] == ',' || text_[0] == '\t' || text_[0] == '\n' || text_[0] == '\r' || text_[0] == '\f'))
+    while (!text_.empty() && (text_[0] == ' ' || text_[0] == ',' || text_[0] == '\t' || text_[0] == '\n' ||
+                              text_[0] == '\r' || text_[0] == '\f'))
       text_.remove_prefix(1);
   }
   bool empty() {
@@ -26,7 +27,8 @@ class Scanner {
   }
   char letter() {
     blanks();
-    if (text_.empty() || !((text_[0] >= 'a' && text_[0] <= 'z') || (text_[0] >= 'A' && text_[0] <= 'Z'))) return 0;
+    if (text_.empty() || !((text_[0] >= 'a' && text_[0] <= 'z') || (text_[0] >= 'A' && text_[0] <= 'Z')))
+      return 0;
     const char c = text_[0];
     text_.remove_prefix(1);
     return c;
@@ -35,7 +37,8 @@ class Scanner {
     blanks();
     std::string_view t = text_;
     if (!t.empty() && t[0] == '+') t.remove_prefix(1);
-    const auto [end, error] = std::from_chars(t.data(), t.data() + t.size(), value, std::chars_format::general);
+    const auto [end, error] =
+        std::from_chars(t.data(), t.data() + t.size(), value, std::chars_format::general);
     if (error != std::errc() || !(std::fabs(value) <= kMost)) return false;
     text_.remove_prefix(static_cast<std::size_t>(end - text_.data()));
     return true;
@@ -57,7 +60,8 @@ class Scanner {
   std::string_view word() {
     blanks();
     std::size_t n = 0;
-    while (n < text_.size() && ((text_[n] >= 'a' && text_[n] <= 'z') || (text_[n] >= 'A' && text_[n] <= 'Z'))) ++n;
+    while (n < text_.size() && ((text_[n] >= 'a' && text_[n] <= 'z') || (text_[n] >= 'A' && text_[n] <= 'Z')))
+      ++n;
     const std::string_view out = text_.substr(0, n);
     text_.remove_prefix(n);
     return out;
@@ -67,11 +71,13 @@ class Scanner {
   std::string_view text_;
 };
 
-double angle_between(const Point2& u, const Point2& v) { return portable::atan2(u.x() * v.y() - u.y() * v.x(), u.dot(v)); }
+double angle_between(const Point2& u, const Point2& v) {
+  return portable::atan2(u.x() * v.y() - u.y() * v.x(), u.dot(v));
+}
 
 /// Cubics of at most a quarter turn for an arc of an ellipse.
-void add_elliptical(std::vector<Curve>& out, const Point2& centre, const Eigen::Matrix2d& axes, double from, double turn,
-                    const Point2& end) {
+void add_elliptical(std::vector<Curve>& out, const Point2& centre, const Eigen::Matrix2d& axes, double from,
+                    double turn, const Point2& end) {
   const int n = std::max(1, static_cast<int>(std::ceil(std::fabs(turn) / (kPi / 2) - 1e-9)));
   const double step = turn / n, handle = 4.0 / 3 * portable::sin(step / 4) / portable::cos(step / 4);
   auto at = [&](double a) { return Point2(centre + axes * Point2(portable::cos(a), portable::sin(a))); };
@@ -123,7 +129,8 @@ class PathReader {
   void add(const Point2& end, Curve::Shape shape = geometry::Line{}) {
     ++count_;
     if (run_.curves.empty() && runs_open_ == false) run_start_ = at_, runs_open_ = true;
-    if (!std::holds_alternative<geometry::Line>(shape) || (end - at_).norm() > 0) run_.curves.emplace_back(at_, end, std::move(shape));
+    if (!std::holds_alternative<geometry::Line>(shape) || (end - at_).norm() > 0)
+      run_.curves.emplace_back(at_, end, std::move(shape));
     at_ = end;
   }
 
@@ -200,16 +207,20 @@ class PathReader {
     double rx, ry, turn;
     bool large, sweep;
     Point2 p;
-    if (!in_.number(rx) || !in_.number(ry) || !in_.number(turn) || !in_.flag(large) || !in_.flag(sweep) || !point(relative, p)) return false;
+    if (!in_.number(rx) || !in_.number(ry) || !in_.number(turn) || !in_.flag(large) || !in_.flag(sweep) ||
+        !point(relative, p))
+      return false;
     rx = std::fabs(rx), ry = std::fabs(ry);
     if (rx < 1e-9 || ry < 1e-9 || (p - at_).norm() < 1e-12) {
       if ((p - at_).norm() > 0) add(p);
       return true;
     }
     if (rx == ry) {
-      const double half = (p - at_).norm() / 2, r = std::max(rx, half), rise = std::sqrt((r - half) * (r + half));
+      const double half = (p - at_).norm() / 2, r = std::max(rx, half),
+                   rise = std::sqrt((r - half) * (r + half));
       const double sagitta = large ? r + rise : half * half / (r + rise);
-      // A positive sweep turns from x to y, as counter-clockwise does with y up: it bulges to the right of the way.
+      // A positive sweep turns from x to y, as counter-clockwise does with y up: it bulges to the right of
+      // the way.
       add(p, geometry::Arc{sweep ? -sagitta : sagitta});
       return true;
     }
@@ -223,7 +234,8 @@ class PathReader {
     const double f = (large == sweep ? -1 : 1) * std::sqrt(std::max(0.0, (rx * rx * ry * ry - d) / d));
     const Point2 centre_local(f * rx * q.y() / ry, -f * ry * q.x() / rx);
     const Point2 centre = R * centre_local + (at_ + p) / 2;
-    const Point2 u((q.x() - centre_local.x()) / rx, (q.y() - centre_local.y()) / ry), v((-q.x() - centre_local.x()) / rx, (-q.y() - centre_local.y()) / ry);
+    const Point2 u((q.x() - centre_local.x()) / rx, (q.y() - centre_local.y()) / ry),
+        v((-q.x() - centre_local.x()) / rx, (-q.y() - centre_local.y()) / ry);
     double way = angle_between(u, v);
     if (sweep && way < 0) way += 2 * kPi;
     if (!sweep && way > 0) way -= 2 * kPi;
@@ -293,8 +305,10 @@ std::vector<SvgRun> svg_path(std::string_view data, std::size_t most, bool& good
 SvgRun moved(const SvgRun& run, const SvgMotion& motion) {
   SvgRun out{{}, run.closed};
   const Eigen::Matrix2d gram = motion.linear.transpose() * motion.linear;
-  const double factor = std::sqrt(std::fabs(motion.linear.determinant())), sense = motion.linear.determinant() < 0 ? -1 : 1;
-  const bool round = std::fabs(gram(0, 1)) < 1e-9 * gram.trace() && std::fabs(gram(0, 0) - gram(1, 1)) < 1e-9 * gram.trace();
+  const double factor = std::sqrt(std::fabs(motion.linear.determinant())),
+               sense = motion.linear.determinant() < 0 ? -1 : 1;
+  const bool round =
+      std::fabs(gram(0, 1)) < 1e-9 * gram.trace() && std::fabs(gram(0, 0) - gram(1, 1)) < 1e-9 * gram.trace();
   for (const Curve& curve : run.curves) {
     const Point2 a = motion(curve.start()), b = motion(curve.end());
     if (const auto* q = std::get_if<geometry::Quadratic>(&curve.shape())) {
@@ -306,10 +320,12 @@ SvgRun moved(const SvgRun& run, const SvgMotion& motion) {
         out.curves.emplace_back(a, b, geometry::Arc{sense * factor * arc->bulge});
         continue;
       }
-      const double half = (curve.end() - curve.start()).norm() / 2, h = std::fabs(arc->bulge), r = (half * half / h + h) / 2;
+      const double half = (curve.end() - curve.start()).norm() / 2, h = std::fabs(arc->bulge),
+                   r = (half * half / h + h) / 2;
       const Point2 d = (curve.end() - curve.start()) / (2 * half), left(-d.y(), d.x());
       const double side = arc->bulge > 0 ? 1 : -1;
-      const Point2 centre = (curve.start() + curve.end()) / 2 + side * (h - r) * left, u = curve.start() - centre, v = curve.end() - centre;
+      const Point2 centre = (curve.start() + curve.end()) / 2 + side * (h - r) * left,
+                   u = curve.start() - centre, v = curve.end() - centre;
       double way = angle_between(u, v);
       if (side < 0 && way < 0) way += 2 * kPi;  // to the right of the way is counter-clockwise
       if (side > 0 && way > 0) way -= 2 * kPi;

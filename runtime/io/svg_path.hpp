@@ -16,9 +16,7 @@ struct SvgMotion {
   Eigen::Matrix2d linear = Eigen::Matrix2d::Identity();
   Point2 shift{0, 0};
   Point2 operator()(const Point2& p) const { return linear * p + shift; }
-  SvgMotion operator*(const SvgMotion& inner) const {
-    return {linear * inner.linear, (*this)(inner.shift)};
-  }
+  SvgMotion operator*(const SvgMotion& inner) const { return {linear * inner.linear, (*this)(inner.shift)}; }
 };
 
 /// A `transform` attribute; nothing where it is none.
@@ -30,8 +28,8 @@ struct SvgRun {
   bool closed = false;
 };
 
-/// Path data; coordinates as they stand. At most `most` curves. Reads up to the first fault, as SVG asks for: `good` says
-/// whether there was none. Elliptical arcs become cubics, circular ones arcs.
+/// Path data; coordinates as they stand. At most `most` curves. Reads up to the first fault, as SVG asks for:
+/// `good` says whether there was none. Elliptical arcs become cubics, circular ones arcs.
 std::vector<SvgRun> svg_path(std::string_view data, std::size_t most, bool& good);
 
 /// The run moved; a circular arc stays one where the motion keeps circles, else it becomes cubics.

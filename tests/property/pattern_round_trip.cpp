@@ -30,10 +30,12 @@ design::Garment evaluate(const std::string& script) {
   grammar::Sources sources;
   interpreter::InterpretOptions o;
   o.stdlib_dir = GARMENT_STDLIB_DIR;
-  interpreter::Interpretation result = interpreter::interpret(sources, sources.add("x", script), system_host(), o);
+  interpreter::Interpretation result =
+      interpreter::interpret(sources, sources.add("x", script), system_host(), o);
   std::string told;
   for (const auto& d : result.diagnostics)
-    if (d.severity == Severity::error && d.code != "G0510")  // random seams may twist: `export` only warns of that
+    if (d.severity == Severity::error &&
+        d.code != "G0510")  // random seams may twist: `export` only warns of that
       told += grammar::render(d, sources, false);
   INFO(told);
   REQUIRE(told.empty());
@@ -68,7 +70,8 @@ void check_both_routes(const std::string& text) {
   interpreter::UnparseOptions print;
   print.title = "x";
   const auto names = interpreter::text::make_names(*read.garment);
-  for (std::size_t p = 0; p < names.panels.size(); ++p) REQUIRE(names.panels[p] == read.garment->panels[p].name);
+  for (std::size_t p = 0; p < names.panels.size(); ++p)
+    REQUIRE(names.panels[p] == read.garment->panels[p].name);
   for (const std::string& line : io::layout_lines(*read.layout, *read.garment))
     print.trailer.push_back(std::string(io::kLayoutMark) + line);
   const std::string script = interpreter::unparse(*read.garment, print);
@@ -96,8 +99,12 @@ class Wild {
       for (int p = n - 1; p >= 0; --p) pattern["panel_order"].push_back(name(p));
     }
     if (chance(0.9)) pattern["stitches"] = stitches(pattern["panels"], n);
-    root["properties"] = {{"units_in_meter", unit_}, {"curvature_coords", absolute ? "absolute" : "relative"}};
-    if (chance(0.5)) root["parameters"] = {{"length", {{"value", 1.25}, {"influence", json::array({{{"panel", "p0"}, {"edge_list", {0, 1}}}})}}}};
+    root["properties"] = {{"units_in_meter", unit_},
+                          {"curvature_coords", absolute ? "absolute" : "relative"}};
+    if (chance(0.5))
+      root["parameters"] = {
+          {"length",
+           {{"value", 1.25}, {"influence", json::array({{{"panel", "p0"}, {"edge_list", {0, 1}}}})}}}};
     if (chance(0.3)) root["parameter_order"] = {"length"};
     if (chance(0.3)) root["constraints"] = json::object();
     if (chance(0.3)) root["note \u00e9"] = "kept {as} \"it\" is";
@@ -119,10 +126,15 @@ class Wild {
     };
     if (pairs) return control(0.5);
     switch (pick(4)) {
-      case 0: return {{"type", "quadratic"}, {"params", json::array({control(0.5)})}};
-      case 1: return {{"type", "cubic"}, {"params", json::array({control(0.33), control(0.66)})}};
-      case 2: return {{"type", "circle"}, {"params", {length * real(2, 300), chance(0.5) ? json(0) : json(false), pick(2)}}};
-      default: return nullptr;
+      case 0:
+        return {{"type", "quadratic"}, {"params", json::array({control(0.5)})}};
+      case 1:
+        return {{"type", "cubic"}, {"params", json::array({control(0.33), control(0.66)})}};
+      case 2:
+        return {{"type", "circle"},
+                {"params", {length * real(2, 300), chance(0.5) ? json(0) : json(false), pick(2)}}};
+      default:
+        return nullptr;
     }
   }
 
@@ -130,7 +142,8 @@ class Wild {
   json panel(bool pairs, bool absolute) {
     const int n = 3 + pick(6);
     std::vector<std::array<double, 2>> points;
-    const double radius = 0.3 * unit_, sense = chance(0.5) ? 1 : -1, x = real(-1, 1) * radius, y = real(-1, 1) * radius;
+    const double radius = 0.3 * unit_, sense = chance(0.5) ? 1 : -1, x = real(-1, 1) * radius,
+                 y = real(-1, 1) * radius;
     for (int i = 0; i < n; ++i) {
       const double angle = sense * 2 * 3.14159265358979 * i / n, r = radius * real(0.8, 1.2);
       points.push_back({x + r * std::cos(angle), y + r * std::sin(angle)});
@@ -149,7 +162,8 @@ class Wild {
       int a = i, b = (i + 1) % n;
       if (chance(0.15)) std::swap(a, b);  // drawn backwards
       json edge{{"endpoints", {number[a], number[b]}}};
-      if (chance(0.5)) edge["curvature"] = curve(pairs, absolute, points[a][0], points[a][1], points[b][0], points[b][1]);
+      if (chance(0.5))
+        edge["curvature"] = curve(pairs, absolute, points[a][0], points[a][1], points[b][0], points[b][1]);
       if (chance(0.2)) edge["label"] = "left_collar";
       if (chance(0.1)) edge["stray"] = {1, "two"};
       edges.push_back(edge);
@@ -271,22 +285,24 @@ hem low on front.hem turn 2 cm to back
   const io::CutGarment cut = io::cut_garment(garment);
   CHECK(again.panels[0].edges.size() == cut.panels[0].edges.size());
   // The dart is cut away and sewn: half of its mouth times its depth is missing.
-  CHECK(io::signed_area(garment.panels[0].edges) - io::signed_area(again.panels[0].edges) == Approx(0.5 * 0.03 * 0.09));
+  CHECK(io::signed_area(garment.panels[0].edges) - io::signed_area(again.panels[0].edges) ==
+        Approx(0.5 * 0.03 * 0.09));
   CHECK(io::signed_area(again.panels[1].edges) == Approx(io::signed_area(garment.panels[1].edges)));
   CHECK(again.seams.size() >= 2);
   double sewn = 0;
   for (std::size_t s = 0; s + 1 < again.seams.size(); ++s) sewn += again.seams[s].sides[0].parts[0].to;
   CHECK(sewn == Approx(0.2));
   // Written again, it is the same pattern.
-  const json first = json::parse(written.text), second = json::parse(io::write_pattern_json(again, back.layout.get()).text);
+  const json first = json::parse(written.text),
+             second = json::parse(io::write_pattern_json(again, back.layout.get()).text);
   CHECK(difference(first["pattern"], second["pattern"]) == "");
 }
 
 TEST_CASE("a damaged block is passed over") {
   json root = json::parse(pattern_test::fixture("clockwise_skirt.json"));
   for (const char* text :
-       {"3", R"({"fabrics":4})", R"({"fabrics":[{"name":"a","thickness":"x"}]})", R"({"panels":[]})", R"({"seams":{}})",
-        R"({"seams":[3]})", R"({"fabrics":[{"kind":1}]})"}) {
+       {"3", R"({"fabrics":4})", R"({"fabrics":[{"name":"a","thickness":"x"}]})", R"({"panels":[]})",
+        R"({"seams":{}})", R"({"seams":[3]})", R"({"fabrics":[{"kind":1}]})"}) {
     root["garment"] = json::parse(text);
     const io::PatternResult result = io::read_pattern(root.dump(), options());
     INFO(text);

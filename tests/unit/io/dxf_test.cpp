@@ -1,6 +1,6 @@
 // AAMA and ASTM DXF in several dialects, in and out.
-#include <catch2/catch.hpp>
 #include <algorithm>
+#include <catch2/catch.hpp>
 #include <cmath>
 #include <functional>
 #include <sstream>
@@ -32,7 +32,9 @@ struct Draft {
   }
   Draft& at(int code, Point2 p) { return number(code, p.x() * scale).number(code + 10, p.y() * scale); }
   Draft& entity(const char* type, const std::string& layer) { return pair(0, type).pair(8, layer); }
-  Draft& words(const std::string& layer, const std::string& value) { return entity("TEXT", layer).at(10, {0, 0}).number(40, 5).pair(1, value); }
+  Draft& words(const std::string& layer, const std::string& value) {
+    return entity("TEXT", layer).at(10, {0, 0}).number(40, 5).pair(1, value);
+  }
   Draft& polyline(const std::string& layer, const std::vector<Point2>& points, bool closed) {
     entity("POLYLINE", layer).pair(66, "1").pair(70, closed ? "1" : "0");
     for (const Point2& p : points) entity("VERTEX", layer).at(10, p);
@@ -54,7 +56,9 @@ struct Draft {
     return *this;
   }
   Draft& point(const std::string& layer, Point2 p) { return entity("POINT", layer).at(10, p); }
-  Draft& block(const std::string& name) { return pair(0, "BLOCK").pair(8, "1").pair(2, name).pair(70, "0").at(10, {0, 0}); }
+  Draft& block(const std::string& name) {
+    return pair(0, "BLOCK").pair(8, "1").pair(2, name).pair(70, "0").at(10, {0, 0});
+  }
   Draft& end_block() { return pair(0, "ENDBLK"); }
   Draft& section(const char* name) { return pair(0, "SECTION").pair(2, name); }
   Draft& end_section() { return pair(0, "ENDSEC"); }
@@ -86,7 +90,8 @@ void marks(Draft& d) {
     if (std::find(kTurns.begin(), kTurns.end(), p) == kTurns.end()) d.point("3", p);
 }
 
-std::string style(const std::function<void(Draft&)>& body, const std::string& facts = "Units: METRIC", Draft d = {}) {
+std::string style(const std::function<void(Draft&)>& body, const std::string& facts = "Units: METRIC",
+                  Draft d = {}) {
   d.section("BLOCKS");
   body(d);
   d.end_section().section("ENTITIES");
@@ -113,9 +118,17 @@ const design::Garment& garment_of(const io::DxfResult& result) {
 
 TEST_CASE("an ASTM file and its AAMA twin give the same pieces") {
   const std::string astm = style([](Draft& d) {
-    d.block("FRONT-M").words("1", "Piece Name: FRONT").words("1", "Size: M").words("1", "Quantity: 2").polyline("1", front(), true);
+    d.block("FRONT-M")
+        .words("1", "Piece Name: FRONT")
+        .words("1", "Size: M")
+        .words("1", "Quantity: 2")
+        .polyline("1", front(), true);
     marks(d);
-    d.point("4", {150, 0}).entity("LINE", "7").at(10, {100, 100}).at(11, {100, 300}).polyline("8", {{50, 100}, {50, 400}}, false);
+    d.point("4", {150, 0})
+        .entity("LINE", "7")
+        .at(10, {100, 100})
+        .at(11, {100, 300})
+        .polyline("8", {{50, 100}, {50, 400}}, false);
     d.point("13", {150, 300}).polyline("84", front(), true).end_block();
   });
   Draft crlf;
@@ -124,10 +137,23 @@ TEST_CASE("an ASTM file and its AAMA twin give the same pieces") {
       [](Draft& d) {
         std::vector<Point2> twice = front();
         twice.push_back(twice.front());
-        d.block("FRONT_M").words("1", "PIECE NAME: FRONT").words("1", "SIZE: m").words("1", "QUANTITY: 2").polyline("1", twice, false);
+        d.block("FRONT_M")
+            .words("1", "PIECE NAME: FRONT")
+            .words("1", "SIZE: m")
+            .words("1", "QUANTITY: 2")
+            .polyline("1", twice, false);
         marks(d);
-        d.entity("LINE", "4").at(10, {150, 0}).at(11, {150, 5}).polyline("7", {{100, 100}, {100, 300}}, false);
-        d.entity("LINE", "8").at(10, {50, 100}).at(11, {50, 400}).entity("CIRCLE", "13").at(10, {150, 300}).number(40, 2).end_block();
+        d.entity("LINE", "4")
+            .at(10, {150, 0})
+            .at(11, {150, 5})
+            .polyline("7", {{100, 100}, {100, 300}}, false);
+        d.entity("LINE", "8")
+            .at(10, {50, 100})
+            .at(11, {50, 400})
+            .entity("CIRCLE", "13")
+            .at(10, {150, 300})
+            .number(40, 2)
+            .end_block();
       },
       "UNITS: metric", crlf);
   for (const std::string& text : {astm, aama}) {
@@ -159,9 +185,18 @@ TEST_CASE("a boundary may come in many ways") {
       [](Draft& d) { d.light("1", front(), true); },
       [](Draft& d) { d.light("L1", front(), true); },
       [](Draft& d) { d.polyline("CUT", front(), true); },
-      [](Draft& d) { auto p = front(); std::reverse(p.begin(), p.end()); d.polyline("1", p, true); },
+      [](Draft& d) {
+        auto p = front();
+        std::reverse(p.begin(), p.end());
+        d.polyline("1", p, true);
+      },
       [](Draft& d) { d.polyline("14", front(), true); },
-      [](Draft& d) { auto p = front(); d.polyline("1", {p.begin(), p.begin() + 5}, false).polyline("1", {p.begin() + 4, p.end()}, false).lines("1", {p.back(), p.front()}, false); },
+      [](Draft& d) {
+        auto p = front();
+        d.polyline("1", {p.begin(), p.begin() + 5}, false)
+            .polyline("1", {p.begin() + 4, p.end()}, false)
+            .lines("1", {p.back(), p.front()}, false);
+      },
   };
   for (std::size_t i = 0; i < ways.size(); ++i) {
     INFO("way " << i);
@@ -173,7 +208,11 @@ TEST_CASE("a boundary may come in many ways") {
     CHECK(area(garment_of(result).panels.at(0)) == Approx(whole).epsilon(2e-3));
   }
   Draft loose;  // no blocks at all
-  loose.section("ENTITIES").polyline("1", front(), true).words("1", "Piece Name: LOOSE").words("1", "Units: METRIC").end_section();
+  loose.section("ENTITIES")
+      .polyline("1", front(), true)
+      .words("1", "Piece Name: LOOSE")
+      .words("1", "Units: METRIC")
+      .end_section();
   const io::DxfResult result = read(loose.finish());
   CHECK(area(garment_of(result).panels.at(0)) == Approx(whole).epsilon(2e-3));
   CHECK(result.garment->panels[0].name == "LOOSE");
@@ -182,7 +221,12 @@ TEST_CASE("a boundary may come in many ways") {
 TEST_CASE("a half is opened about its mirror line") {
   const std::vector<Point2> half{{0, 0}, {200, 0}, {220, 300}, {150, 500}, {0, 480}};
   const std::string text = style([&](Draft& d) {
-    d.block("BACK").words("1", "Piece Name: BACK").polyline("1", half, true).entity("LINE", "6").at(10, {0, 0}).at(11, {0, 480});
+    d.block("BACK")
+        .words("1", "Piece Name: BACK")
+        .polyline("1", half, true)
+        .entity("LINE", "6")
+        .at(10, {0, 0})
+        .at(11, {0, 480});
     for (const Point2& p : half) d.point("2", p);
     d.point("4", {100, 0}).point("13", {100, 200}).end_block();
   });
@@ -194,16 +238,26 @@ TEST_CASE("a half is opened about its mirror line") {
   CHECK(panel.edges.size() == 7);  // the hem is one edge; at the neck there is a corner of 16 degrees
   // Open along the fold, it is the same.
   const std::string open = style([&](Draft& d) {
-    d.block("BACK").polyline("1", half, false).entity("LINE", "6").at(10, {0, -5}).at(11, {0, 500}).end_block();
+    d.block("BACK")
+        .polyline("1", half, false)
+        .entity("LINE", "6")
+        .at(10, {0, -5})
+        .at(11, {0, 500})
+        .end_block();
   });
   CHECK(area(garment_of(read(open)).panels.at(0)) == Approx(2 * polygon(half)));
 }
 
 TEST_CASE("cut and stitch lines make allowances") {
-  const std::vector<Point2> inner{{10, 10}, {290, 10}, {290, 390}, {10, 390}}, outer{{0, 0}, {300, 0}, {300, 400}, {0, 400}};
+  const std::vector<Point2> inner{{10, 10}, {290, 10}, {290, 390}, {10, 390}},
+      outer{{0, 0}, {300, 0}, {300, 400}, {0, 400}};
   for (bool swapped : {false, true}) {
     const io::DxfResult result = read(style([&](Draft& d) {
-      d.block("A").polyline(swapped ? "14" : "1", outer, true).polyline(swapped ? "1" : "14", inner, true).point("4", {150, 0}).end_block();
+      d.block("A")
+          .polyline(swapped ? "14" : "1", outer, true)
+          .polyline(swapped ? "1" : "14", inner, true)
+          .point("4", {150, 0})
+          .end_block();
     }));
     const design::Panel& panel = garment_of(result).panels.at(0);
     CHECK(area(panel) == Approx(polygon(inner)));
@@ -220,7 +274,8 @@ TEST_CASE("sizes: the sample size, a chosen one, those in block names") {
           const char* size = k == 0 ? "S" : k == 1 ? "M" : "L";
           const double w = 200 + 20 * k;
           d.block(std::string(name) + "-" + size);
-          if (texts) d.words("1", std::string("Piece Name: ") + name).words("1", std::string("Size: ") + size);
+          if (texts)
+            d.words("1", std::string("Piece Name: ") + name).words("1", std::string("Size: ") + size);
           d.polyline("1", {{0, 0}, {w, 0}, {w, 400}, {0, 400}}, true).end_block();
         }
     });
@@ -239,15 +294,18 @@ TEST_CASE("sizes: the sample size, a chosen one, those in block names") {
 
 TEST_CASE("units: stated, and what cannot be") {
   auto square = [](double side) {
-    return [side](Draft& d) { d.block("A").polyline("1", {{0, 0}, {side, 0}, {side, side}, {0, side}}, true).end_block(); };
+    return [side](Draft& d) {
+      d.block("A").polyline("1", {{0, 0}, {side, 0}, {side, side}, {0, side}}, true).end_block();
+    };
   };
   struct Case {
     const char* facts;
     double side, metres;
     bool warns;
   };
-  for (const Case& c : {Case{"Units: METRIC", 400, 0.4, false}, Case{"Units: ENGLISH", 10, 0.254, false}, Case{"units: METRIC", 31, 0.31, true},
-                        Case{"Nothing: x", 400, 0.4, true}, Case{"Units: ENGLISH", 500, 0.5, true}, Case{"Units: METRIC", 9000, 0.9, true}}) {
+  for (const Case& c : {Case{"Units: METRIC", 400, 0.4, false}, Case{"Units: ENGLISH", 10, 0.254, false},
+                        Case{"units: METRIC", 31, 0.31, true}, Case{"Nothing: x", 400, 0.4, true},
+                        Case{"Units: ENGLISH", 500, 0.5, true}, Case{"Units: METRIC", 9000, 0.9, true}}) {
     INFO(c.facts << " " << c.side);
     const io::DxfResult result = read(style(square(c.side), c.facts));
     CHECK(area(garment_of(result).panels.at(0)) == Approx(c.metres * c.metres));
@@ -266,7 +324,13 @@ TEST_CASE("arcs, circles and blocks in blocks") {
   CHECK(area(panel) == Approx(3.14159265 * 0.01 / 2).epsilon(1e-4));
   CHECK(panel.holes.size() == 1);
   const std::string loop = style([](Draft& d) {
-    d.block("A").polyline("1", front(), true).pair(0, "INSERT").pair(8, "1").pair(2, "B").at(10, {0, 0}).end_block();
+    d.block("A")
+        .polyline("1", front(), true)
+        .pair(0, "INSERT")
+        .pair(8, "1")
+        .pair(2, "B")
+        .at(10, {0, 0})
+        .end_block();
     d.block("B").pair(0, "INSERT").pair(8, "1").pair(2, "B").at(10, {0, 0}).end_block();
   });
   const io::DxfResult deep = read(loop);
@@ -276,24 +340,36 @@ TEST_CASE("arcs, circles and blocks in blocks") {
 
 TEST_CASE("formatted text, grade rules, other layers, nested sizes") {
   const io::DxfResult mtext = read(style([](Draft& d) {
-    d.block("A").entity("MTEXT", "1").at(10, {0, 0}).pair(1, "{\\fArial|b0;Piece Name : COLLAR}\\PQuantity: 2").words("2", "# 14").polyline("1", front(), true);
-    d.polyline("1", {{20, 20}, {280, 20}, {280, 500}, {20, 500}}, true).polyline("1", {{100, 100}, {120, 100}, {120, 120}}, true).end_block();
+    d.block("A")
+        .entity("MTEXT", "1")
+        .at(10, {0, 0})
+        .pair(1, "{\\fArial|b0;Piece Name : COLLAR}\\PQuantity: 2")
+        .words("2", "# 14")
+        .polyline("1", front(), true);
+    d.polyline("1", {{20, 20}, {280, 20}, {280, 500}, {20, 500}}, true)
+        .polyline("1", {{100, 100}, {120, 100}, {120, 120}}, true)
+        .end_block();
   }));
   CHECK(garment_of(mtext).panels.at(0).name == "COLLAR");
   CHECK(mtext.garment->panels[0].holes.size() == 1);
   for (const std::string& note : mtext.notes) CHECK(note.find('#') == std::string::npos);
-  const io::DxfResult layers = read(style([](Draft& d) { d.block("A").polyline("PIECES", front(), true).end_block(); }));
+  const io::DxfResult layers =
+      read(style([](Draft& d) { d.block("A").polyline("PIECES", front(), true).end_block(); }));
   CHECK(garment_of(layers).panels.size() == 1);
 }
 
 TEST_CASE("lines rounded to hundredths of an inch are chained") {
   Draft inch;
   std::vector<Point2> points;
-  for (Point2 p : front()) points.emplace_back(std::round(p.x() / 0.254) / 100, std::round(p.y() / 0.254) / 100);
+  for (Point2 p : front())
+    points.emplace_back(std::round(p.x() / 0.254) / 100, std::round(p.y() / 0.254) / 100);
   const std::string text = style(
       [&](Draft& d) {
         d.block("A");
-        for (std::size_t i = 0; i < points.size(); ++i) d.entity("LINE", "1").at(10, points[i]).at(11, points[(i + 1) % points.size()] + Point2(0.01, 0.01));
+        for (std::size_t i = 0; i < points.size(); ++i)
+          d.entity("LINE", "1")
+              .at(10, points[i])
+              .at(11, points[(i + 1) % points.size()] + Point2(0.01, 0.01));
         d.end_block();
       },
       "Units: ENGLISH", inch);
@@ -342,7 +418,9 @@ TEST_CASE("what is wrong with a file is said with its line") {
 }
 
 TEST_CASE("a file cut anywhere is read or refused, and says why") {
-  const std::string good = style([](Draft& d) { d.block("A").polyline("1", front(), true).point("4", {150, 0}).end_block(); });
+  const std::string good = style([](Draft& d) {
+    d.block("A").polyline("1", front(), true).point("4", {150, 0}).end_block();
+  });
   for (std::size_t n = 0; n < good.size(); n += 3) {
     const io::DxfResult result = read(good.substr(0, n));
     CHECK(result.garment.has_value() != has_errors(result.findings));
@@ -357,7 +435,8 @@ TEST_CASE("text comes as UTF-8, Latin-1 or escapes") {
     }));
     garment_of(result);
     bool told = false;
-    for (const std::string& note : result.notes) told = told || note.find("\xC3\x89L\xC3\x89GANT") != std::string::npos;
+    for (const std::string& note : result.notes)
+      told = told || note.find("\xC3\x89L\xC3\x89GANT") != std::string::npos;
     CHECK(told);
   }
 }
@@ -366,7 +445,11 @@ TEST_CASE("what is written is read back as the same pieces") {
   const io::DxfResult first = read(style([](Draft& d) {
     d.block("FRONT").words("1", "Piece Name: FRONT").polyline("1", front(), true);
     marks(d);
-    d.point("4", {150, 0}).entity("LINE", "7").at(10, {100, 100}).at(11, {200, 200}).polyline("8", {{50, 100}, {50, 400}}, false);
+    d.point("4", {150, 0})
+        .entity("LINE", "7")
+        .at(10, {100, 100})
+        .at(11, {200, 200})
+        .polyline("8", {{50, 100}, {50, 400}}, false);
     d.point("13", {150, 300}).entity("CIRCLE", "11").at(10, {200, 400}).number(40, 10).end_block();
     d.block("ROUND").entity("CIRCLE", "1").at(10, {0, 0}).number(40, 100).end_block();
   }));
@@ -388,6 +471,7 @@ TEST_CASE("what is written is read back as the same pieces") {
       CHECK(back.panels[p].lines.size() == garment.panels[p].lines.size());
       CHECK(back.panels[p].grain_angle == Approx(garment.panels[p].grain_angle).margin(1e-5));
     }
-    for (const design::Edge& edge : back.panels[0].edges) CHECK(edge.allowance == Approx(allowance).margin(1e-9));
+    for (const design::Edge& edge : back.panels[0].edges)
+      CHECK(edge.allowance == Approx(allowance).margin(1e-9));
   }
 }

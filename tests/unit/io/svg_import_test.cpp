@@ -15,7 +15,8 @@ namespace {
 
 constexpr double kPi = 3.14159265358979;
 
-std::string drawing(const std::string& body, const std::string& size = R"(width="200mm" height="100mm" viewBox="0 0 200 100")") {
+std::string drawing(const std::string& body,
+                    const std::string& size = R"(width="200mm" height="100mm" viewBox="0 0 200 100")") {
   return "<?xml version=\"1.0\"?><svg xmlns=\"http://www.w3.org/2000/svg\" " + size + ">" + body + "</svg>";
 }
 
@@ -70,7 +71,8 @@ TEST_CASE("shapes and path commands have the areas that geometry says, mm") {
 }
 
 TEST_CASE("curves stay what they are") {
-  const io::SvgResult result = read(drawing(R"(<path d="M0 0 L50 0 Q 60 20 50 40 C 40 50 30 60 20 40 A 20 20 0 0 1 0 20 Z"/>)"));
+  const io::SvgResult result =
+      read(drawing(R"(<path d="M0 0 L50 0 Q 60 20 50 40 C 40 50 30 60 20 40 A 20 20 0 0 1 0 20 Z"/>)"));
   const design::Panel& panel = garment_of(result).panels.at(0);
   std::vector<int> kinds(6, 0);
   for (const design::Edge& edge : panel.edges) ++kinds[edge.curve.shape().index()];
@@ -84,16 +86,21 @@ TEST_CASE("transforms move, turn, mirror and stretch") {
     double factor;
     bool arcs;
   };
-  for (const Case& c : {Case{"translate(10,20)", 1, true}, Case{"rotate(30 5 5) scale(2)", 4, true}, Case{"scale(-1,1)", 1, true},
-                        Case{"scale(2 1)", 2, false}, Case{"skewX(30)", 1, false}, Case{"matrix(0 1 -1 0 3 4)", 1, true}}) {
+  for (const Case& c : {Case{"translate(10,20)", 1, true}, Case{"rotate(30 5 5) scale(2)", 4, true},
+                        Case{"scale(-1,1)", 1, true}, Case{"scale(2 1)", 2, false},
+                        Case{"skewX(30)", 1, false}, Case{"matrix(0 1 -1 0 3 4)", 1, true}}) {
     INFO(c.transform);
-    const io::SvgResult result = read(drawing(std::string("<g transform=\"") + c.transform + "\"><circle cx=\"20\" cy=\"20\" r=\"10\"/></g>"));
+    const io::SvgResult result = read(drawing(std::string("<g transform=\"") + c.transform +
+                                              "\"><circle cx=\"20\" cy=\"20\" r=\"10\"/></g>"));
     const design::Panel& panel = garment_of(result).panels.at(0);
     CHECK(area(panel) * 1e6 == Approx(circle * c.factor).epsilon(5e-4));
     CHECK(std::holds_alternative<geometry::Arc>(panel.edges[0].curve.shape()) == c.arcs);
   }
   CHECK(!io::svg_transform("turn(3)"));
-  CHECK(pattern_test::has_code(read(drawing("<g transform=\"turn(3)\"><circle r=\"10\"/></g><rect width=\"9\" height=\"9\"/>")).findings, "G0971"));
+  CHECK(pattern_test::has_code(
+      read(drawing("<g transform=\"turn(3)\"><circle r=\"10\"/></g><rect width=\"9\" height=\"9\"/>"))
+          .findings,
+      "G0971"));
 }
 
 TEST_CASE("units come from width, height and viewBox") {
@@ -105,8 +112,10 @@ TEST_CASE("units come from width, height and viewBox") {
   };
   for (const Case& c : {Case{R"(width="100mm" height="100mm" viewBox="0 0 100 100")", 0.05, false},
                         Case{R"(width="10cm" height="10cm" viewBox="0 0 1000 1000")", 0.005, false},
-                        Case{R"(width="10in" viewBox="0 0 100 100")", 0.127, false}, Case{R"(width="960" height="960")", 50 * 0.0254 / 96, false},
-                        Case{R"(viewBox="0 0 960 960")", 50 * 0.0254 / 96, true}, Case{R"(width="100%" height="100%")", 50 * 0.0254 / 96, true}}) {
+                        Case{R"(width="10in" viewBox="0 0 100 100")", 0.127, false},
+                        Case{R"(width="960" height="960")", 50 * 0.0254 / 96, false},
+                        Case{R"(viewBox="0 0 960 960")", 50 * 0.0254 / 96, true},
+                        Case{R"(width="100%" height="100%")", 50 * 0.0254 / 96, true}}) {
     INFO(c.size);
     const io::SvgResult result = read(drawing(square, c.size));
     CHECK(area(garment_of(result).panels.at(0)) == Approx(c.side * c.side));
@@ -156,7 +165,8 @@ TEST_CASE("a drawing of ours comes back as the same panels") {
     REQUIRE(back.panels[p].edges.size() == 4);
     for (std::size_t e = 0; e < 4; ++e) {
       CHECK(back.panels[p].edges[e].name == garment.panels[p].edges[e].name);
-      CHECK(back.panels[p].edges[e].curve.length() == Approx(garment.panels[p].edges[e].curve.length()).epsilon(1e-7));
+      CHECK(back.panels[p].edges[e].curve.length() ==
+            Approx(garment.panels[p].edges[e].curve.length()).epsilon(1e-7));
     }
   }
 }
