@@ -45,8 +45,8 @@ class StitchReader {
     auto first = side(stitch[0]), second = side(stitch[1]);
     if (!first || !second) return;
     if (first->panel == second->panel && first->edge == second->edge) {
-      report_.error("G0953", fmt::format("{}: sews {} to itself", where_, name_of(*first)),
-                    "a stitch joins two different edges");
+      report_.warning("G0954", fmt::format("{}: sews {} to itself; the stitch is left out", where_, name_of(*first)),
+                      "a stitch joins two different edges");
       return;
     }
     if (!right_wrong) std::swap(second->from, second->to);

@@ -202,6 +202,7 @@ class Wild {
       json a = side(), b = side();
       if (a.is_null() || b.is_null()) break;
       if (chance(0.1)) a["stray"] = 1;
+      if (chance(0.1)) b = a;  // an edge sewn to itself: nothing to sew, but it stands in the file
       out.push_back(chance(0.25) ? json::array({a, b, "right_wrong"}) : json::array({a, b}));
     }
     return out;
