@@ -183,7 +183,9 @@ void SvgPanel::draw_outline(SvgPaper& paper, const Placed& on) const {
   pen.fill = tint_;
   std::string edges;
   const std::string course = course_of(panel_, on.shift, edges);
-  paper.polyline(on(outline_), true, pen, {{"data-course", course}, {"data-edges", edges}});
+  paper.data("data-course", course);
+  paper.data("data-edges", edges);
+  paper.polyline(on(outline_), true, pen);
   for (const Dart& d : darts_) {
     std::vector<Point> mouth;
     for (int k = 0; k <= 8; ++k)

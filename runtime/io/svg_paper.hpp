@@ -39,20 +39,20 @@ struct Lettering {
 class SvgPaper {
  public:
   void line(const Point& a, const Point& b, const Pen& pen);
-  /// `data`: pairs of an attribute's name and its value, for readers of the file.
-  void polyline(const std::vector<Point>& points, bool closed, const Pen& pen,
-                const std::vector<std::pair<std::string, std::string>>& data = {});
+  void polyline(const std::vector<Point>& points, bool closed, const Pen& pen);
   void circle(const Point& center, double radius, const Pen& pen);
   /// `at` is the middle of the letters' height.
   void text(const Point& at, std::string_view text, const Lettering& lettering);
   void begin_group(std::string_view id);
   void end_group();
+  /// An attribute of the next polyline, for readers of the file.
+  void data(std::string_view name, std::string_view value);
 
   /// The whole file. `size` in mm is both the printed size and the view box.
   std::string finish(const Point& size, std::string_view title) const;
 
  private:
-  std::string body_;
+  std::string body_, data_;
 };
 
 /// Roughly how wide a text prints, mm.
