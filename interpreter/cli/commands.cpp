@@ -2,15 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "interpreter/cli/modelling.hpp"
 #include "interpreter/cli/study.hpp"
 #include "interpreter/language/construct_table.hpp"
 #include "interpreter/language/limit_table.hpp"
-#include "interpreter/language/unparse.hpp"
-#include "runtime/io/pattern_json.hpp"
 #include "runtime/model/dump.hpp"
 
 namespace garment::cli {
@@ -115,52 +112,6 @@ ExitCode show_model(const ProjectOptions& options, Host& host, Terminal& termina
   else if (code == kOk)
     terminal.result(model::summary_text(*model));
   return code;
-}
-
-ExitCode import_pattern(const ImportOptions& options, Host& host, Terminal& terminal) {
-  grammar::Sources sources;
-  HostResult<std::string> text = host.read_file(options.file, 16u << 20);
-  if (!text) {
-    show({plain_error("G0901", fmt::format("cannot read `{}`: {}", options.file, text.error.message), "check the path")}, sources,
-         terminal);
-    return kInputOutput;
-  }
-  std::string out = options.out.empty() ? stem_of(options.file) + ".garment" : options.out;
-  if (!options.force && std::filesystem::exists(out)) {
-    show({plain_error("G0903", fmt::format("`{}` exists already", out), "choose another name with -o, or add --force")}, sources,
-         terminal);
-    return kInputOutput;
-  }
-  io::PatternOptions pattern_options;
-  pattern_options.title = stem_of(options.file);
-  pattern_options.fabric = io::import_fabric();
-  io::PatternResult pattern = io::read_pattern(*text.value, pattern_options);
-  interpreter::Origins origins;
-  show(interpreter::to_diagnostics(pattern.findings, origins), sources, terminal);
-  if (!pattern.garment) return kDiagnostics;
-  for (const std::string& note : pattern.notes) terminal.note("note: " + note);
-  interpreter::UnparseOptions unparse_options;
-  unparse_options.title = pattern_options.title;
-  if (!options.body.empty()) {
-    design::Body declared;
-    declared.name = pattern_options.body;
-    declared.shape = design::MeshFile{std::filesystem::absolute(options.body).string(), 1};
-    body::BodyResult built = body::build_body(declared, host, "");
-    show(interpreter::to_diagnostics(built.findings, origins), sources, terminal);
-    if (!built.body) return kDiagnostics;
-    share_frame(*pattern.garment, pattern.frame, *built.body);
-    std::error_code error;
-    std::filesystem::path relative = std::filesystem::proximate(options.body, folder_of(out), error);
-    unparse_options.body = fmt::format("mesh(\"{}\")", error ? options.body : relative.string());
-  }
-  HostResult<bool> written = host.write_file(out, interpreter::unparse(*pattern.garment, unparse_options));
-  if (!written) {
-    show({plain_error("G0902", fmt::format("cannot write `{}`: {}", out, written.error.message), "")}, sources, terminal);
-    return kInputOutput;
-  }
-  terminal.note(fmt::format("{}: {}, {}", out, plural(pattern.garment->panels.size(), "panel"),
-                            plural(pattern.garment->seams.size(), "seam")));
-  return kOk;
 }
 
 }  // namespace garment::cli

@@ -22,12 +22,6 @@ struct FormatOptions {
 /// it is not canonical; the worst of all files counts.
 ExitCode format(const FormatOptions& options, Host& host, Terminal& terminal);
 
-struct ImportOptions {
-  std::string file, out, body;
-  bool force = false;   ///< overwrite an existing script
-};
-ExitCode import_pattern(const ImportOptions& options, Host& host, Terminal& terminal);
-
 /// The table of limits.
 ExitCode show_limits(Terminal& terminal);
 

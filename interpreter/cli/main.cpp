@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "interpreter/cli/commands.hpp"
+#include "interpreter/cli/exchange.hpp"
 #include "interpreter/cli/explain.hpp"
 #include "interpreter/cli/golden.hpp"
 #include "interpreter/cli/lsp.hpp"
@@ -26,6 +27,7 @@ constexpr const char* kExamples = R"(examples:
   garment measure scan.obj --picture scan.png   the girths and lengths of a body
   garment check skirt.garment                   what is wrong with a script
   garment import tee.json -o tee.garment        a readable script from a specification
+  garment export tee.garment -o tee.dxf         its flat pattern for another system
 )";
 
 constexpr const char* kFooter = R"(exit codes: 0 ok, 1 diagnostics, 2 usage, 3 input or output, 4 the simulation failed, 5 an expect failed,
@@ -48,6 +50,7 @@ struct Options {
   FormatOptions format;
   ImportOptions import_options;
   MeasureOptions measure;
+  ExportOptions export_options;
   GoldenOptions golden;
   bool whole_check = false;
   garment::repl::ReplOptions repl;
@@ -63,8 +66,12 @@ void add_common(CLI::App* command, Options& o) {
   command->add_option("--threads", o.threads, "threads to use (results do not depend on it)")->check(CLI::Range(1, 256));
 }
 
-void add_project(CLI::App* command, ProjectOptions& p) {
-  command->add_option("file", p.file, "script (.garment) or sewing-pattern specification (.json)")->required();
+constexpr const char* kPatternFiles = "sewing-pattern specification (.json), AAMA/ASTM DXF (.dxf) or drawing (.svg)";
+constexpr const char* kExportFiles = "script (.garment), sewing-pattern specification (.json), AAMA/ASTM DXF (.dxf) or drawing (.svg)";
+
+void add_project(CLI::App* command, ProjectOptions& p,
+                 const char* files = "script (.garment) or sewing-pattern specification (.json)") {
+  command->add_option("file", p.file, files)->required();
   command->add_option("-p,--param", p.params, "set a parameter: -p long=70cm")->allow_extra_args(false);
   command->add_option("--body", p.body, "OBJ file of the body that a specification is worn by");
   command->add_option("--library", p.library_dirs, "folder where `use NAME` looks first; may be given again")
@@ -79,7 +86,8 @@ void add_project(CLI::App* command, ProjectOptions& p) {
 
 int main(int argc, char** argv) {
   Options o;
-  o.run.project.stdlib_dir = o.project.stdlib_dir = o.measure.project.stdlib_dir = GARMENT_STDLIB_DIR;
+  o.run.project.stdlib_dir = o.export_options.project.stdlib_dir = o.project.stdlib_dir = GARMENT_STDLIB_DIR;
+  o.measure.project.stdlib_dir = GARMENT_STDLIB_DIR;
   o.golden.stdlib_dir = o.repl.stdlib_dir = GARMENT_STDLIB_DIR;
   CLI::App app{std::string(kExamples) + "\nGarment describes garments and drapes them."};
   app.name("garment");
@@ -112,11 +120,13 @@ int main(int argc, char** argv) {
   format_command->add_flag("--diff", o.format.diff, "only show what would change, as a unified diff; exit 1 if anything");
   format_command->add_flag("--stdout", o.format.stdout_only, "print instead of writing");
   add_common(format_command, o);
-  auto* import_command = app.add_subcommand("import", "turn a sewing-pattern specification into a script");
-  import_command->add_option("file", o.import_options.file, "specification (.json)")->required();
-  import_command->add_option("-o,--out", o.import_options.out, "script to write");
+  auto* import_command = app.add_subcommand("import", "turn a pattern file into a script");
+  import_command->add_option("file", o.import_options.file, kPatternFiles)->required();
+  import_command->add_option("-o,--out", o.import_options.out, "file to write: a script (.garment), or any that `garment export` writes");
   import_command->add_option("--body", o.import_options.body, "OBJ file of the body that the script shall name");
-  import_command->add_flag("--force", o.import_options.force, "overwrite an existing script");
+  import_command->add_option("--size", o.import_options.read.size, "size to take from a file of several (default: its sample size)");
+  import_command->add_flag("--sizes", o.import_options.list_sizes, "only list the sizes in the file");
+  import_command->add_flag("--force", o.import_options.force, "overwrite an existing file");
   add_common(import_command, o);
   auto* measure_command = app.add_subcommand("measure", "find levels, girths and lengths on a body: a mesh, or a script's bodies");
   measure_command->add_option("file", o.measure.project.file, "mesh (.obj) of an upright person, or a script (.garment)")->required();
@@ -132,6 +142,11 @@ int main(int argc, char** argv) {
   measure_command->add_option("--allow-read", o.measure.project.allow_read, "let the script read below this folder too (may be repeated)")
       ->allow_extra_args(false);
   add_common(measure_command, o);
+  auto* export_command = app.add_subcommand("export", "write the flat pattern of a script or a pattern file");
+  add_project(export_command, o.export_options.project, kExportFiles);
+  export_command->add_option("-o,--out", o.export_options.out, "file to write: .json (specification), .dxf (AAMA/ASTM) or .svg")->required();
+  export_command->add_option("--size", o.export_options.read.size, "size to take from a file of several (default: its sample size)");
+  add_common(export_command, o);
   auto* test_command = app.add_subcommand("test", "run the golden scripts of a folder");
   test_command->add_option("folder", o.golden.folder, "folder with .garment files")->required();
   test_command->add_flag("--update", o.golden.update, "write the goldens anew and show the difference");
@@ -195,6 +210,7 @@ int main(int argc, char** argv) {
   if (*format_command) return format(o.format, host, terminal);
   if (*import_command) return import_pattern(o.import_options, host, terminal);
   if (*measure_command) return measure(o.measure, host, terminal);
+  if (*export_command) return export_pattern(o.export_options, host, terminal);
   if (*reference_command) {
     terminal.result(o.textmate ? garment::service::textmate_grammar() : reference_page(app, GARMENT_STDLIB_DIR, host));
     return kOk;

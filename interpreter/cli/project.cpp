@@ -72,11 +72,13 @@ ExitCode load_pattern(Project& project, const ProjectOptions& options, const std
 
 }  // namespace
 
-void share_frame(design::Garment& garment, io::PatternFrame frame, const body::Body& body) {
+double share_frame(design::Garment& garment, io::PatternFrame frame, const body::Body& body) {
   bool body_on_floor = lowest_point(body) > -0.3 * height_of(body);
   double shift = io::pelvis_shift(height_of(body));
-  if (frame == io::PatternFrame::pelvis && body_on_floor) io::move_garment(garment, {0, shift, 0});
-  if (frame == io::PatternFrame::floor && !body_on_floor) io::move_garment(garment, {0, -shift, 0});
+  if ((frame == io::PatternFrame::floor) == body_on_floor) return 0;
+  if (frame == io::PatternFrame::floor) shift = -shift;
+  io::move_garment(garment, {0, shift, 0});
+  return shift;
 }
 
 grammar::Diagnostic plain_error(std::string code, std::string message, std::string help) {

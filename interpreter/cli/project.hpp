@@ -38,8 +38,8 @@ struct Project {
 ExitCode load(Project& project, const ProjectOptions& options, Host& host, Terminal& terminal);
 
 /// Raises or lowers an imported garment into the space of its body: specifications of the older format are drawn about
-/// the pelvis, bodies may stand on the floor, and the other way round.
-void share_frame(design::Garment& garment, io::PatternFrame frame, const body::Body& body);
+/// the pelvis, bodies may stand on the floor, and the other way round. Gives how far it was raised, m.
+double share_frame(design::Garment& garment, io::PatternFrame frame, const body::Body& body);
 
 /// Prints diagnostics in the chosen form. With `--json` they go to standard output.
 void show(const grammar::Diagnostics& diagnostics, const grammar::Sources& sources, Terminal& terminal);

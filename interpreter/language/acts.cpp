@@ -247,14 +247,15 @@ void run_save(Program& program, const Item& item) {
            Message("G0309", "`" + path + "` has no extension; the kind of file is known by it", operand.span)
                .help("as in `save \"skirt.glb\"`"));
     const std::string_view kind = std::string_view(path).substr(dot);
-    for (const char* later : {".dxf", ".vtk", ".html"})
+    for (const char* later : {".vtk", ".html"})
       if (kind == later)
         fail(program, Message("G0905", "`" + std::string(kind) + "` cannot be written yet", operand.span)
-                          .help("use .obj, .glb, .ply, .svg, .pdf, .png or .csv"));
-    if (kind != ".csv" && kind != ".obj" && kind != ".glb" && kind != ".ply" && kind != ".svg" && kind != ".pdf" && kind != ".png")
+                          .help("use .obj, .glb, .ply, .svg, .pdf, .dxf, .json, .png or .csv"));
+    constexpr std::string_view kWritten[] = {".csv", ".obj", ".glb", ".ply", ".svg", ".pdf", ".png", ".dxf", ".json"};
+    if (std::find(std::begin(kWritten), std::end(kWritten), kind) == std::end(kWritten))
       fail(program,
            Message("G0905", "`" + std::string(kind) + "` is no format that can be written", operand.span)
-               .help("use .obj, .glb, .ply, .svg, .pdf, .png or .csv"));
+               .help("use .obj, .glb, .ply, .svg, .pdf, .dxf, .json, .png or .csv"));
   }
   if (act.paths.empty())
     fail(program, Message("G0312", "`save` needs a file name in quotes", statement.keyword.span));

@@ -67,6 +67,8 @@ class Unparser {
       line("gravity " + text::acceleration(garment_.gravity));
     group();
     for (const std::string& act : options_.acts) line(act);
+    if (!options_.trailer.empty()) group();
+    for (const std::string& words : options_.trailer) line(words);
     return std::move(out_);
   }
 

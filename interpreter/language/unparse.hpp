@@ -17,10 +17,11 @@ struct UnparseOptions {
   std::string body;
   std::string body_name = "form";
   std::string fabric;  ///< right side of the first fabric's statement; empty: all its figures
+  std::vector<std::string> trailer;   ///< lines at the end, comments with their `#`
   std::vector<std::string> acts = {"drape until rest"};  ///< last lines
 };
 
-/// A readable script that evaluates to the same garment: coordinates within 5e-10 m, angles within 1e-9
+/// A readable script that evaluates to the same garment: coordinates within 5e-13 m, angles within 1e-9
 /// degrees, seam relations within 1e-12. Laid out as the formatter would. Names that the language keeps for
 /// itself get a `_1` behind them, and the dots of halves become underscores (a panel on the fold comes out
 /// unfolded). A relation that is not a number (sides of whatever lengths) is left out.

@@ -32,7 +32,7 @@ std::string rounded(double value, double per_unit) {
 }  // namespace
 
 std::string length(double metres) {
-  std::string number = rounded(metres * 100, 1e7);
+  std::string number = rounded(metres * 100, 1e10);
   return number == "0" ? number : number + " cm";
 }
 

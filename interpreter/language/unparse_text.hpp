@@ -9,7 +9,7 @@
 
 namespace garment::interpreter::text {
 
-/// Length in centimetres with seven decimals at most ("12.5 cm"), plain 0 for zero.
+/// Length in centimetres with ten decimals at most ("12.5 cm"), plain 0 for zero.
 std::string length(double metres);
 /// "(12.5 cm, 0)".
 std::string point(const design::Point2& p);

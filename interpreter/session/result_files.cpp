@@ -4,7 +4,9 @@
 
 #include <filesystem>
 
+#include "runtime/io/dxf_writer.hpp"
 #include "runtime/io/mesh_writers.hpp"
+#include "runtime/io/pattern_writer.hpp"
 #include "runtime/io/svg_writer.hpp"
 #include "runtime/render/pictures.hpp"
 #include "runtime/results/strain.hpp"
@@ -21,10 +23,12 @@ ResultFile make_result_file(const std::string& name, const design::Garment& garm
   if (ending == ".ply") return {io::write_ply(model, state, results::vertex_strain(model, state)), "", ""};
   if (ending == ".csv") return {io::write_csv(model, state, results::vertex_strain(model, state)), "", ""};
   if (ending == ".pdf") return {io::write_pattern_pdf(garment, &model, paper), "", ""};
+  if (ending == ".dxf") return {io::write_dxf(garment).text, "", ""};
+  if (ending == ".json") return {io::write_pattern_json(garment).text, "", ""};
   if (ending == ".svg") return {io::write_pattern_svg(garment, model), "", ""};
   if (ending == ".png") return {render::render_sheet(render::make_scene(model, state, bodies)), "", ""};
   return {std::nullopt, fmt::format("`save \"{}\"`: `{}` is no format that can be written", name, ending),
-          "use .obj, .glb, .ply, .svg, .pdf, .png or .csv"};
+          "use .obj, .glb, .ply, .svg, .pdf, .dxf, .json, .png or .csv"};
 }
 
 }  // namespace garment::session

@@ -17,8 +17,8 @@ struct ResultFile {
   std::string message, help;
 };
 
-/// The file `name` of a garment as it lies: .obj, .glb, .ply, .svg, .pdf, .png, .csv. Refuses other endings and names that leave
-/// the folder they are written in. `paper` is that of a .pdf.
+/// The file `name` of a garment as it lies: .obj, .glb, .ply, .svg, .pdf, .dxf, .json, .png, .csv. Refuses other endings and names
+/// that leave the folder they are written in. `paper` is that of a .pdf.
 ResultFile make_result_file(const std::string& name, const design::Garment& garment,
                             const std::vector<body::Body>& bodies, const model::Model& model,
                             const model::State& state, const io::PaperSize& paper = {});

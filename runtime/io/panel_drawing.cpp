@@ -67,6 +67,37 @@ Chord roomiest(const std::vector<Point>& polygon) {
   return best;
 }
 
+/// The stitch line as path data with its true curves, on paper with the panel's origin at `shift`; `edges` receives the names
+/// of the edges, each with the number of curves that it is made of. For readers: what is drawn follows it closely enough.
+std::string course_of(const design::Panel& panel, const Point& shift, std::string& edges) {
+  auto number = [](double x) { return format_number(std::round(x * 1e7) / 1e7); };
+  auto at = [&](const design::Point2& p) {
+    return number(shift[0] + 1000 * p.x()) + ' ' + number(shift[1] - 1000 * p.y());
+  };
+  std::string out;
+  for (const design::Edge& edge : panel.edges) {
+    std::vector<geometry::Curve> links = edge.curve.elements();
+    if (std::holds_alternative<geometry::Quadratic>(edge.curve.shape())) links = {edge.curve};
+    if (out.empty()) out = "M" + at(edge.curve.start());
+    for (const geometry::Curve& c : links) {
+      if (const auto* q = std::get_if<geometry::Quadratic>(&c.shape())) {
+        out += "Q" + at(q->control) + ' ' + at(c.end());
+      } else if (const auto* b = std::get_if<geometry::Cubic>(&c.shape())) {
+        out += "C" + at(b->control_1) + ' ' + at(b->control_2) + ' ' + at(c.end());
+      } else if (const auto* arc = std::get_if<geometry::Arc>(&c.shape()); arc && arc->bulge != 0) {
+        const double half = (c.end() - c.start()).norm() / 2, sagitta = std::fabs(arc->bulge);
+        const std::string radius = number(1000 * (half * half / sagitta + sagitta) / 2);
+        // Paper has y down: what bulges to the left of the way turns clockwise, from x to y.
+        out += "A" + radius + ' ' + radius + " 0 " + (sagitta > half ? "1 " : "0 ") + (arc->bulge > 0 ? "1 " : "0 ") + at(c.end());
+      } else {
+        out += "L" + at(c.end());
+      }
+    }
+    edges += fmt::format("{}{} {}", edges.empty() ? "" : " ", edge.name, links.size());
+  }
+  return out + "Z";
+}
+
 }  // namespace
 
 PanelDrawing::PanelDrawing(const design::Panel& panel, std::vector<SeamTag> tags, std::vector<std::string> facts,
@@ -150,6 +181,10 @@ void PanelDrawing::draw(Paper& paper, const Point& corner) const {
 void PanelDrawing::draw_outline(Paper& paper, const Placed& on) const {
   Pen pen = kCut;
   pen.fill = tint_;
+  std::string edges;
+  const std::string course = course_of(panel_, on.shift, edges);
+  paper.data("data-course", course);
+  paper.data("data-edges", edges);
   paper.polyline(on(outline_), true, pen);
   for (const Dart& d : darts_) {
     std::vector<Point> mouth;

@@ -47,6 +47,8 @@ class Paper {
   /// What belongs together: a panel and all that is drawn on it.
   virtual void begin_group(std::string_view id) = 0;
   virtual void end_group() = 0;
+  /// An attribute of the next polyline, for programs that read the file; nothing to see on paper.
+  virtual void data(std::string_view /*name*/, std::string_view /*value*/) {}
 };
 
 /// Roughly how wide a text prints, mm.

@@ -8,6 +8,8 @@
 #include "runtime/base/number.hpp"
 #include "runtime/io/pattern_attach.hpp"
 #include "runtime/io/pattern_document.hpp"
+#include "runtime/io/pattern_extension.hpp"
+#include "runtime/io/pattern_layout.hpp"
 #include "runtime/io/pattern_names.hpp"
 #include "runtime/io/pattern_panel.hpp"
 #include "runtime/io/pattern_stitch.hpp"
@@ -27,6 +29,7 @@ class PatternReader {
       garment = read_document(*document);
     PatternResult result;
     if (report_.errors() == 0) result.garment = std::move(garment);
+    if (result.garment) result.layout = std::move(layout_);
     result.frame = frame_;
     result.findings = report_.take_findings();
     result.notes = report_.take_notes();
@@ -55,11 +58,16 @@ class PatternReader {
     design::Garment garment;
     garment.title = options_.title;
     garment.fabrics.push_back(options_.fabric);
-    garment.seams = read_pattern_stitches(member(*pattern, "stitches"), panels_, options_.limits, report_);
+    std::vector<std::size_t> numbers;
+    garment.seams =
+        read_pattern_stitches(member(*pattern, "stitches"), panels_, options_.limits, report_, &numbers);
     if (report_.errors() > 0) return std::nullopt;
     EdgeLabels labels = take_panels(garment);
     guess_frame(document.root, garment);
     name_edges_and_seams(garment, labels, taken_);
+    read_extension(document.root, panels_, numbers, garment, report_);
+    if (options_.keep_layout)
+      layout_ = std::make_shared<PatternLayout>(pattern_layout(document.root, units_, panels_, garment, numbers));
     if (options_.attach)
       garment.attachments = guess_attachments(garment, labels, frame_, options_.body, report_);
     return garment;
@@ -127,7 +135,7 @@ class PatternReader {
       file.panel.resolution = options_.resolution;
       std::vector<std::string>& of_panel = labels.emplace_back(file.panel.edges.size());
       for (FileEdge& edge : file.edges)
-        if (edge.edge >= 0) of_panel[edge.edge] = std::move(edge.label);
+        if (edge.edge >= 0) of_panel[edge.edge] = edge.label;
       garment.panels.push_back(std::move(file.panel));
     }
     return labels;
@@ -170,6 +178,7 @@ class PatternReader {
   PatternUnits units_;
   PatternFrame frame_ = PatternFrame::floor;
   std::vector<FilePanel> panels_;
+  std::shared_ptr<PatternLayout> layout_;
   std::set<std::string> taken_;
 };
 

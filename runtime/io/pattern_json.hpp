@@ -1,8 +1,9 @@
 #pragma once
 // Reader of sewing patterns in JSON: panels with curved edges, stitches, placement. Both editions of the
 // format that GarmentCode (the newer) and Garment-Pattern-Generator (the older) write. What is read, how it
-// is mapped and what is guessed: docs/import.md.
+// is mapped and what is guessed: docs/formats.md.
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,6 +13,8 @@
 #include "runtime/design/garment.hpp"
 
 namespace garment::io {
+
+struct PatternLayout;
 
 /// Where the origin of a pattern's space lies.
 enum class PatternFrame {
@@ -34,6 +37,7 @@ struct PatternOptions {
   std::string body = "form";          ///< name of the body that attachments speak of
   double resolution = 0.01;           ///< grid spacing of every panel, m
   std::optional<PatternFrame> frame;  ///< overrides the guess
+  bool keep_layout = true;            ///< give the file's layout too, for a writer
   bool attach = true;                 ///< guess attachments from labels and heights
   PatternLimits limits;
 };
@@ -47,6 +51,7 @@ design::Fabric import_fabric();
 struct PatternResult {
   std::optional<design::Garment> garment;
   PatternFrame frame = PatternFrame::floor;
+  std::shared_ptr<PatternLayout> layout;  ///< how the file had it (pattern_layout.hpp); null without a garment
   Findings findings;  ///< codes G0940 to G0959; they name the panel, the edge or the stitch
   std::vector<std::string>
       notes;  ///< what was mapped or guessed, one sentence each, in the order of the file

@@ -19,6 +19,7 @@ using geometry::Point2;
 using nlohmann::json;
 
 constexpr double kSamePoint = 1e-6;  ///< m; nearer points are one
+constexpr double kShortest = 1e-4;   ///< m; what is shorter is no edge, neither here nor in a script
 constexpr double kMinArea = 1e-6;    ///< m^2; less is no panel
 
 struct Ends {
@@ -125,14 +126,15 @@ class PanelReader {
     if (const json* label = member(e, "label"); label && label->is_string())
       file_edge.label = label->get<std::string>();
     bool has_length = (vertices_[*a] - vertices_[*b]).norm() > kSamePoint;
-    if (!has_length)
-      report_.warning("G0946",
-                      fmt::format("{}: starts and ends at the same place; it is left out", edge_name(i)),
-                      "give it two different vertices, or remove it");
     auto shape = has_length ? read_pattern_curve(member(e, "curvature"), vertices_[*a], vertices_[*b], units_,
                                                  limits_, edge_name(i), report_)
                             : Curve::Shape(geometry::Line{});
     if (!shape) return false;
+    if (has_length && (vertices_[*a] - vertices_[*b]).norm() < kShortest)
+      has_length = Curve(vertices_[*a], vertices_[*b], *shape).length() >= kShortest;
+    if (!has_length)
+      report_.warning("G0946", fmt::format("{}: is shorter than 0.1 mm; it is left out", edge_name(i)),
+                      "give it two different vertices, or remove it");
     ends_.push_back({*a, *b});
     shapes_.push_back(std::move(*shape));
     dropped_.push_back(!has_length);
@@ -158,6 +160,10 @@ class PanelReader {
           break;
         }
       }
+    }
+    for (std::size_t i = 0; i < ends_.size(); ++i) {  // what is left out has both ends in one place
+      const int from = same[ends_[i].start], to = same[ends_[i].end];
+      if (dropped_[i] && from != to) std::replace(same.begin(), same.end(), to, from);
     }
     return same;
   }
@@ -288,6 +294,7 @@ class PanelReader {
       return;
     }
     if (area > 0) return;
+    out_.back = true;
     for (design::Edge& edge : out_.panel.edges) edge.curve = edge.curve.mirrored_x(0);
     Eigen::Matrix3d& R = out_.panel.placement.rotation;
     R.col(0) = -R.col(0);  // R Ry(180 deg)

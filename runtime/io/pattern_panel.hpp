@@ -23,6 +23,7 @@ struct FilePanel {
   std::string file_name;        ///< the key in the file
   design::Panel panel;          ///< edges still without names
   std::vector<FileEdge> edges;  ///< by the file's edge numbers
+  bool back = false;            ///< drawn clockwise, so seen from its back: `panel` is its mirror image
 };
 
 /// Units and conventions of the whole file.

@@ -45,8 +45,8 @@ class StitchReader {
     auto first = side(stitch[0]), second = side(stitch[1]);
     if (!first || !second) return;
     if (first->panel == second->panel && first->edge == second->edge) {
-      report_.error("G0953", fmt::format("{}: sews {} to itself", where_, name_of(*first)),
-                    "a stitch joins two different edges");
+      report_.warning("G0954", fmt::format("{}: sews {} to itself; the stitch is left out", where_, name_of(*first)),
+                      "a stitch joins two different edges");
       return;
     }
     if (!right_wrong) std::swap(second->from, second->to);
@@ -140,7 +140,8 @@ double stated_ratio(double length, double reference) {
 }
 
 std::vector<design::Seam> read_pattern_stitches(const json* stitches, const std::vector<FilePanel>& panels,
-                                                const PatternLimits& limits, PatternReport& report) {
+                                                const PatternLimits& limits, PatternReport& report,
+                                                std::vector<std::size_t>* numbers) {
   std::vector<design::Seam> seams;
   if (!stitches) {
     report.note("the pattern has no `stitches`: nothing is sewn");
@@ -156,7 +157,10 @@ std::vector<design::Seam> read_pattern_stitches(const json* stitches, const std:
     return seams;
   }
   StitchReader reader(panels, report);
-  for (std::size_t i = 0; i < stitches->size(); ++i) reader.read((*stitches)[i], i, seams);
+  for (std::size_t i = 0; i < stitches->size(); ++i) {
+    reader.read((*stitches)[i], i, seams);
+    if (numbers) numbers->resize(seams.size(), i);
+  }
   return seams;
 }
 

@@ -43,12 +43,17 @@ std::string style(const Pen& pen) {
 }  // namespace
 
 void SvgPaper::polyline(const std::vector<Point>& points, bool closed, const Pen& pen) {
-  if (points.size() < 2) return;
+  if (points.size() < 2) return data_.clear();
   body_ += "<path d=\"";
   for (std::size_t k = 0; k < points.size(); ++k)
     body_ += (k == 0 ? "M" : "L") + mm(points[k][0]) + ' ' + mm(points[k][1]);
   body_ += closed ? "Z\"" : "\"";
-  body_ += style(pen) + "/>\n";
+  body_ += data_ + style(pen) + "/>\n";
+  data_.clear();
+}
+
+void SvgPaper::data(std::string_view name, std::string_view value) {
+  data_ += ' ' + std::string(name) + "=\"" + escaped(value) + '"';
 }
 
 void SvgPaper::circle(const Point& center, double radius, const Pen& pen) {

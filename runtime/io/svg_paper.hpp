@@ -11,12 +11,13 @@ class SvgPaper final : public Paper {
   void text(const Point& at, std::string_view text, const Lettering& lettering) override;
   void begin_group(std::string_view id) override;
   void end_group() override;
+  void data(std::string_view name, std::string_view value) override;
 
   /// The whole file. `size` in mm is both the printed size and the view box.
   std::string finish(const Point& size, std::string_view title) const;
 
  private:
-  std::string body_;
+  std::string body_, data_;
 };
 
 }  // namespace garment::io

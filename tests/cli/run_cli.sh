@@ -54,7 +54,7 @@ run 0 --help
 says "examples:"
 says "exit codes: 0 ok, 1 diagnostics, 2 usage"
 silent err.txt
-for command in run check model parse fmt import measure test explain; do
+for command in run check model parse fmt import export measure test explain; do
   run 0 $command --help
   says "Usage: garment $command"
 done
@@ -331,7 +331,7 @@ sed 's/^expect.*/save "cloth.csv"/' square.garment >saves.garment
 run 0 run saves.garment --no-pictures -o saves_out
 ok
 grep -q '^cloth,' saves_out/cloth.csv || fail "the table has no row of the panel"
-sed 's/^expect.*/save "cloth.dxf"/' square.garment >saves.garment
+sed 's/^expect.*/save "cloth.pdf"/' square.garment >saves.garment
 run 1 check saves.garment
 complains "cannot be written yet"
 
@@ -429,7 +429,85 @@ if [ -n "$spec" ]; then
   run 3 import "$spec" -o plain_file/imported.garment
   complains "error[G0902]"
   run 0 fmt --check imported.garment
+  # Back again: from the specification, and by way of the script.
+  run 0 import "$spec" -o again.json
+  run 0 export "$spec" -o at_once.json
+  run 0 export imported.garment -o by_script.json
+  for made in again at_once by_script; do
+    python3 - "$spec" "$made.json" <<'PY' || fail "$made.json is not $spec"
+import json, sys
+def same(a, b):
+    if isinstance(a, (int, float)) and isinstance(b, (int, float)): return abs(a - b) <= 1e-6
+    if isinstance(a, dict) and isinstance(b, dict): return a.keys() == b.keys() and all(same(a[k], b[k]) for k in a)
+    if isinstance(a, list) and isinstance(b, list): return len(a) == len(b) and all(map(same, a, b))
+    return a == b
+sys.exit(not same(*(json.load(open(f)) for f in sys.argv[1:3])))
+PY
+  done
 fi
+# ---- pieces in DXF
+cat >piece.garment <<'END'
+garment 1 "pieces"
+fabric poplin = { W = 0.12 kg/m^2 }
+panel disc of poplin { outline circle((0, 0), 12 cm) }
+panel front of poplin {
+  outline from (0, 0) {
+    edge hem to (30 cm, 0) free
+    edge side to (27 cm, 60 cm) through (31 cm, 20 cm), (29 cm, 45 cm) free
+    edge neck to (0, 52 cm) control (10 cm, 50 cm) free
+    close middle free
+  }
+  allowance 1 cm
+  notch hip on side at 20 cm
+}
+measure round_area = area(disc)
+measure front_area = area(front)
+END
+run 0 export piece.garment -o piece.dxf
+run 0 import piece.dxf -o piece_again.garment
+complains "2 panels"
+run 0 check piece_again.garment
+run 0 import piece.dxf --sizes
+says "BASE"
+printf 'AutoCAD Binary DXF\r\n' >binary.dxf
+run 1 import binary.dxf -o binary.garment
+complains "error[G0960]"
+if /usr/bin/python3 -c 'import ezdxf' 2>/dev/null; then
+  run 0 check piece.garment --json
+  /usr/bin/python3 - piece.dxf out.txt <<'PY' || fail "ezdxf reads other areas in piece.dxf"
+import json, sys, ezdxf
+stated = {m["name"]: m["value"] for m in json.load(open(sys.argv[2]))["measures"]}
+areas = {}
+for block in ezdxf.readfile(sys.argv[1]).blocks:
+    for line in block.query("POLYLINE"):
+        p = [v.dxf.location for v in line.vertices]
+        area = abs(sum(p[i - 1].x * p[i].y - p[i].x * p[i - 1].y for i in range(len(p)))) / 2e6
+        areas[block.name, line.dxf.layer] = area
+stitch = {"round_area": areas["DISC", "1"], "front_area": areas["FRONT", "14"]}
+sys.exit(any(abs(stitch[k] / stated[k] - 1) > 1e-4 for k in stitch) or not areas["FRONT", "1"] > areas["FRONT", "14"])
+PY
+else
+  echo "skipped: areas of DXF pieces by ezdxf (python3-ezdxf is not installed)"
+fi
+# ---- drawings in SVG
+run 0 export piece.garment -o piece.svg
+run 0 import piece.svg -o drawn.garment
+run 0 check drawn.garment
+printf '<svg><path' >broken.svg
+run 1 import broken.svg -o broken.garment
+complains "error[G0970]"
+absent broken.garment
+# One to the other, and by `save`.
+run 0 export piece.svg -o drawn.dxf
+run 0 export piece.dxf -o drawn.json
+run 0 import drawn.json -o drawn_again.garment
+sed 's/^expect.*/save "cloth.dxf", "cloth.json"/' square.garment >saves.garment
+run 0 run saves.garment --no-pictures -o saves_out
+exists saves_out/cloth.dxf
+exists saves_out/cloth.json
+run 2 export square.garment -o square.pdf
+complains "error[G0907]"
+absent square.pdf
 printf '{"pattern": [}' >broken.json
 run 1 import broken.json -o broken.garment
 complains "error[G0940]"

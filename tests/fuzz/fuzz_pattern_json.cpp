@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "runtime/io/pattern_json.hpp"
+#include "runtime/io/pattern_writer.hpp"
 
 namespace {
 
@@ -49,6 +50,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   garment::io::PatternResult result =
       garment::io::read_pattern(std::string_view(reinterpret_cast<const char*>(data), size), options);
   require(result.garment.has_value() != garment::has_errors(result.findings));
-  if (result.garment) check(*result.garment);
+  if (!result.garment) return 0;
+  check(*result.garment);
+  // What was read can be written, and what is written can be read.
+  const garment::io::PatternText written = garment::io::write_pattern_json(*result.garment, result.layout.get());
+  options.limits.max_bytes = 64u << 20;  // laid out, it is longer
+  require(garment::io::read_pattern(written.text, options).garment.has_value());
   return 0;
 }

@@ -67,7 +67,12 @@ const std::map<std::string, std::string> kElsewhere = {
     {"G0941", "unit/io"}, {"G0942", "unit/io"}, {"G0943", "unit/io"}, {"G0944", "unit/io"}, {"G0945", "unit/io"},
     {"G0946", "unit/io"}, {"G0947", "unit/io"}, {"G0948", "unit/io"}, {"G0949", "unit/io"}, {"G0950", "unit/io"},
     {"G0951", "unit/io"}, {"G0952", "unit/io"}, {"G0953", "unit/io"}, {"G0954", "unit/io"}, {"G0955", "unit/io"},
-    {"G0956", "unit/io"}, {"G0957", "unit/io"},
+    {"G0956", "unit/io"}, {"G0957", "unit/io"}, {"G0906", "property"}, {"G0958", "property"},
+    // Pieces in DXF.
+    {"G0961", "unit/io"}, {"G0962", "unit/io"}, {"G0963", "unit/io"}, {"G0964", "unit/io"}, {"G0965", "unit/io"},
+    {"G0966", "unit/io"}, {"G0967", "unit/io"}, {"G0968", "unit/io"},
+    // Drawings in SVG.
+    {"G0971", "unit/io"}, {"G0972", "unit/io"}, {"G0973", "unit/io"}, {"G0974", "unit/io"},
     // Files beside the prompt; what an editor asks.
     {"G1504", "unit/session"}, {"G1507", "unit/session"}, {"G1508", "unit/session"}, {"G1560", "unit/service"},
     {"G1561", "unit/service"}, {"G1562", "unit/service"},

@@ -170,8 +170,8 @@ TEST_CASE("numbers of a script are short and exact enough") {
   using namespace interpreter::text;
   CHECK(length(0.125) == "12.5 cm");
   CHECK(length(0) == "0");
-  CHECK(length(-1e-12) == "0");
-  CHECK(length(1.0 / 3) == "33.3333333 cm");
+  CHECK(length(-1e-13) == "0");
+  CHECK(length(1.0 / 3) == "33.3333333333 cm");
   CHECK(point(Point2(0.1, -0.02)) == "(10 cm, -2 cm)");
   CHECK(angle_deg(90) == "90 deg");
   CHECK(angle_deg(1e-12) == "0");
