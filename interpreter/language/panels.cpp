@@ -274,7 +274,8 @@ void forget_panel(Program& program, Declaration& declaration) {
 
 void find_backs(Program& program) {
   for (const Item& item : program.main->items) {
-    if (item.declaration != nullptr && item.statement->keyword.text == "panel" && item.statement->body)
+    const std::string& keyword = item.statement->keyword.text;
+    if (item.declaration != nullptr && (keyword == "panel" || keyword == "pair panel") && item.statement->body)
       for (const Statement& inner : *item.statement->body)
         if (inner.keyword.text == "place" && names_back(inner))
           program.panels[static_cast<std::size_t>(item.declaration->index)].on_back = true;
@@ -284,7 +285,7 @@ void find_backs(Program& program) {
       const Declaration* declaration =
           find_path(program, item.statement->operands[0], *item.scope).declaration;
       if (declaration != nullptr && declaration->index >= 0 &&
-          declaration->statement->keyword.text == "panel")
+          (declaration->statement->keyword.text == "panel" || declaration->statement->keyword.text == "pair panel"))
         program.panels[static_cast<std::size_t>(declaration->index)].on_back = true;
     } catch (const Stop&) {
     }

@@ -62,8 +62,9 @@ class RecipeMaker {
     inherited_ = like != nullptr;
     if (statement.body) take_body(*statement.body);
     for (Override& change : declaration_.overrides) assign(change);
-    // The right one of a pair is the left one's image.
-    if (declaration_.pair_left != nullptr) recipe_.mirrored = !recipe_.mirrored;
+    // One of a pair is the other's image: the right one, but behind the body the left one, as with the halves of a fold.
+    const bool image = (declaration_.pair_left != nullptr) != program_.panels[static_cast<std::size_t>(declaration_.index)].on_back;
+    if (statement.keyword.text == "pair panel" && image) recipe_.mirrored = !recipe_.mirrored;
     return std::move(recipe_);
   }
 

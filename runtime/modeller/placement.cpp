@@ -53,10 +53,32 @@ Extent extent_of(const Workspace& w, std::size_t panel) {
   return e;
 }
 
+/// The other one of a pair, on the same part of the same body, mirrored in x = 0.
+bool has_image(const Workspace& w, std::size_t panel) {
+  const design::Panel& p = w.garment.panels[panel];
+  constexpr double kSame = 1e-6;  // m
+  for (const auto& [own, other] : {std::pair{".left", ".right"}, std::pair{".right", ".left"}}) {
+    if (!p.name.ends_with(own)) continue;
+    const std::string name = p.name.substr(0, p.name.size() - std::string(own).size()) + other;
+    for (std::size_t k = 0; k < w.garment.panels.size(); ++k) {
+      const design::Panel& q = w.garment.panels[k];
+      if (q.name != name || q.placement.kind != p.placement.kind || q.placement.part != p.placement.part ||
+          q.placement.body != p.placement.body)
+        continue;
+      const Extent a = extent_of(w, panel), b = extent_of(w, k);
+      return std::abs(a.low.x() + b.high.x()) < kSame && std::abs(a.high.x() + b.low.x()) < kSame;
+    }
+  }
+  return false;
+}
+
+/// The x of the panel that comes to the middle of its part: the axis of what is symmetric, else its own middle.
 double middle_x(const Workspace& w, std::size_t panel) {
   const design::Panel& p = w.garment.panels[panel];
+  if (p.fold_x) return *p.fold_x;
+  if (has_image(w, panel)) return 0;
   Extent e = extent_of(w, panel);
-  return p.fold_x ? *p.fold_x : (e.low.x() + e.high.x()) / 2;
+  return (e.low.x() + e.high.x()) / 2;
 }
 
 /// Mean y, by length, of the edges that go by `name` (a name means both of its halves, too).
