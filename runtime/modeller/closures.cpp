@@ -111,7 +111,7 @@ class Ties {
     for (std::size_t s = 1; s < sewn.side.size(); ++s)
       for (const auto& [from, to] : {std::pair{std::size_t{0}, s}, std::pair{s, std::size_t{0}}})
         for (std::size_t k = 0; k < std::min(sewn.side[from].size(), sewn.side[to].size()); ++k)
-          if (const std::optional<Place> under = inside(sewn.side[to], k, sewn.seam->lap))
+          if (const std::optional<Place> under = inside(sewn.side[to], sewn.side[from], k, sewn.seam->lap))
             add(place_at(sewn.side[from][k]), *under, 0, kStitchStiffness);
   }
 
@@ -162,19 +162,31 @@ class Ties {
     return {model_.vertex_panel[vertex], {particle, particle, particle}, {1, 0, 0}};
   }
 
-  /// The place that lies `depth` inside the cloth from vertex k of a side.
-  std::optional<Place> inside(const std::vector<Index>& side, std::size_t k, double depth) {
+  /// Across a side at its vertex k, to the left of its way; zero where it has no way.
+  Point2 across(const std::vector<Index>& side, std::size_t k) const {
     const Index here = side[k];
-    const int panel = model_.vertex_panel[here];
     Point2 way(0, 0);
     for (std::size_t other : {k > 0 ? k - 1 : k, std::min(k + 1, side.size() - 1)})
-      if (model_.vertex_panel[side[other]] == panel)
+      if (model_.vertex_panel[side[other]] == model_.vertex_panel[here])
         way += (other > k ? 1 : -1) * (model_.vertex_uv[side[other]] - model_.vertex_uv[here]);
-    if (!(way.norm() > 0)) return std::nullopt;
-    const Point2 across = Point2(-way.y(), way.x()).normalized(), at = model_.vertex_uv[here];
+    return way.norm() > 0 ? Point2(Point2(-way.y(), way.x()).normalized()) : Point2(0, 0);
+  }
+
+  /// 1 where the cloth lies to the left of a side at its vertex k, -1 to the right, 0 on both sides: a line inside a panel.
+  int cloth_beside(const std::vector<Index>& side, std::size_t k) {
     constexpr double kLook = 0.5e-3;  // m
-    const double sense = on_cloth(panel, at + kLook * across) ? 1 : -1;
-    return place_of(panel, at + sense * depth * across);
+    const Point2 off = kLook * across(side, k), at = model_.vertex_uv[side[k]];
+    const int panel = model_.vertex_panel[side[k]];
+    return static_cast<int>(on_cloth(panel, at + off)) - static_cast<int>(on_cloth(panel, at - off));
+  }
+
+  /// The place that lies `depth` inside the cloth from vertex k of a side; from a line, away from the cloth of the other side.
+  std::optional<Place> inside(const std::vector<Index>& side, const std::vector<Index>& other, std::size_t k, double depth) {
+    const Point2 way = across(side, k);
+    if (way.isZero()) return std::nullopt;
+    int sense = cloth_beside(side, k);
+    if (sense == 0) sense = cloth_beside(other, k) > 0 ? -1 : 1;
+    return place_of(model_.vertex_panel[side[k]], model_.vertex_uv[side[k]] + sense * depth * way);
   }
 
   Index locate(int panel, const Point2& point, std::array<double, 3>& weights) {

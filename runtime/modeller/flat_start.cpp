@@ -44,13 +44,30 @@ Axis half_axis(const design::Garment& garment, int panel, const Point2& low, con
   return {middle, {1, 0}};
 }
 
-bool on_pleated_edge(const design::Panel& panel, const std::vector<LaidPleat>& pleats, const Point2& at) {
-  constexpr double kOnEdge = 1e-6;  // m
-  return std::any_of(pleats.begin(), pleats.end(), [&](const LaidPleat& p) {
-    const geometry::Curve& curve = panel.edges[p.edge].curve;
-    return (curve.point_at(curve.nearest(at)) - at).norm() < kOnEdge;
-  });
-}
+/// The edges of a panel on which pleats stand.
+class PleatedEdges {
+ public:
+  PleatedEdges(const design::Panel& panel, const std::vector<LaidPleat>& pleats) {
+    std::vector<int> edges;
+    for (const LaidPleat& p : pleats)
+      if (std::find(edges.begin(), edges.end(), p.edge) == edges.end()) edges.push_back(p.edge);
+    for (int e : edges) lines_.push_back(panel.edges[e].curve.polyline(kChordError));
+  }
+
+  bool hold(const Point2& at) const {
+    for (const std::vector<Point2>& line : lines_)
+      for (std::size_t k = 0; k + 1 < line.size(); ++k) {
+        const Point2 way = line[k + 1] - line[k];
+        const double t = std::clamp((at - line[k]).dot(way) / std::max(1e-300, way.squaredNorm()), 0.0, 1.0);
+        if ((line[k] + t * way - at).norm() < 2 * kChordError) return true;
+      }
+    return false;
+  }
+
+ private:
+  static constexpr double kChordError = 2e-5;  // m
+  std::vector<std::vector<Point2>> lines_;
+};
 
 }  // namespace
 
@@ -64,17 +81,18 @@ std::vector<Vector3d> flat_start(const design::Garment& garment, const model::Mo
   for (std::size_t p = 0; p < garment.panels.size(); ++p) {
     const design::Panel& panel = garment.panels[p];
     const std::vector<LaidPleat> pleats = laid_pleats(panel);
+    const PleatedEdges pleated(panel, pleats);
     const double gap = layer_gap(garment, static_cast<int>(p));
-    // A panel that is placed by hand lies where it was put.
-    const bool by_hand = panel.placement.kind == Placement::Kind::rigid;
+    // A panel that is placed by hand lies where it was put, one without a place is laid on the other.
+    const bool on_body = panel.placement.kind == Placement::Kind::on_part || panel.placement.kind == Placement::Kind::around;
     const model::PanelRange& range = model.panels[p];
     const Index end = range.first_vertex + range.n_vertices;
     Point2 low(1e300, 1e300), high(-1e300, -1e300);
     for (Index v = range.first_vertex; v < end; ++v) {
       flat[v] = fold_pleats(pleats, model.vertex_uv[v], gap);
       // What the edge's seam holds together is one line: the layers part from there.
-      if (flat[v].z() != 0 && on_pleated_edge(panel, pleats, model.vertex_uv[v])) flat[v].z() = 0;
-      if (!by_hand) flat[v].z() += gap * layer[p];
+      if (flat[v].z() != 0 && pleated.hold(model.vertex_uv[v])) flat[v].z() = 0;
+      if (on_body) flat[v].z() += gap * layer[p];
       low = low.cwiseMin(flat[v].head<2>());
       high = high.cwiseMax(flat[v].head<2>());
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "runtime/base/portable_math.hpp"
 #include "runtime/modeller/pleats.hpp"
@@ -116,11 +117,10 @@ class Pressed {
 };
 
 /// Chains of the particles, a new one wherever another share of the fold is left.
-void add_runs(const std::vector<OnPart>& particles, double angle, bool goes_on, const Pressed& pressed,
-              std::vector<FoldChain>& chains) {
+void add_runs(const std::vector<OnPart>& particles, const FoldChain& fold, const Pressed& pressed, std::vector<FoldChain>& chains) {
   for (std::size_t k = 0; k + 1 < particles.size();) {
     const double share = pressed.share_at(0.5 * (particles[k].at + particles[k + 1].at));
-    FoldChain chain{{particles[k].particle}, angle * share, goes_on};
+    FoldChain chain{{particles[k].particle}, fold.angle * share, fold.goes_on, fold.turned_over};
     for (; k + 1 < particles.size() && pressed.share_at(0.5 * (particles[k].at + particles[k + 1].at)) == share; ++k)
       chain.particle.push_back(particles[k + 1].particle);
     if (chain.angle != 0) chains.push_back(std::move(chain));
@@ -134,15 +134,57 @@ bool with_loop(const design::Garment& garment, const design::EdgePart& part) {
   return (part.from < part.to) == (area > 0);
 }
 
-/// Panels of the seam that lie face down where its first side lies face up.
-std::vector<Index> turned_over(const design::Garment& garment, const design::Seam& seam) {
+/// Panels of the seam that lie face down where its side `base` lies face up.
+std::vector<Index> turned_over(const design::Garment& garment, const design::Seam& seam, std::size_t base) {
   std::vector<Index> panels;
-  if (seam.sides[0].parts.empty() || seam.sides[0].parts[0].on != design::EdgePart::On::outline) return panels;
-  for (std::size_t k = 1; k < seam.sides.size(); ++k)
+  const std::vector<design::EdgePart>& own = seam.sides[base].parts;
+  if (own.empty() || own[0].on != design::EdgePart::On::outline) return panels;
+  for (std::size_t k = 0; k < seam.sides.size(); ++k)
     for (const design::EdgePart& part : seam.sides[k].parts)
-      if (part.on == design::EdgePart::On::outline && with_loop(garment, part) == with_loop(garment, seam.sides[0].parts[0]))
+      if (k != base && part.on == design::EdgePart::On::outline && with_loop(garment, part) == with_loop(garment, own[0]))
         panels.push_back(part.panel);
   return panels;
+}
+
+/// The same of the seams that sew the edge of a part.
+std::vector<Index> turned_over(const design::Garment& garment, const design::EdgePart& edge) {
+  std::vector<Index> panels;
+  for (const design::Seam& seam : garment.seams)
+    for (std::size_t k = 0; k < seam.sides.size(); ++k)
+      for (const design::EdgePart& part : seam.sides[k].parts) {
+        if (part.panel != edge.panel || part.on != edge.on || part.edge != edge.edge) continue;
+        const std::vector<Index> more = turned_over(garment, seam, k);
+        panels.insert(panels.end(), more.begin(), more.end());
+      }
+  return panels;
+}
+
+/// Folds of one place add up, as far as cloth can be folded: chains are cut where another share of theirs is left.
+void clamp_sums(std::vector<FoldChain>& chains) {
+  auto link = [](const FoldChain& chain, std::size_t k) { return std::minmax(chain.particle[k], chain.particle[k + 1]); };
+  std::map<std::pair<Index, Index>, double> sum;
+  for (const FoldChain& chain : chains)
+    for (std::size_t k = 0; k + 1 < chain.particle.size(); ++k) sum[link(chain, k)] += chain.angle;
+  auto share = [&](const FoldChain& chain, std::size_t k) {
+    const double total = std::abs(sum[link(chain, k)]);
+    return total > kLargestFold ? kLargestFold / total : 1;
+  };
+  std::vector<FoldChain> result;
+  for (FoldChain& chain : chains) {
+    bool whole = true;
+    for (std::size_t k = 0; k + 1 < chain.particle.size(); ++k) whole = whole && share(chain, k) == 1;
+    if (whole) {
+      result.push_back(std::move(chain));
+      continue;
+    }
+    for (std::size_t k = 0; k + 1 < chain.particle.size();) {
+      const double left = share(chain, k);
+      FoldChain part{{chain.particle[k]}, chain.angle * left, chain.goes_on, chain.turned_over};
+      for (; k + 1 < chain.particle.size() && share(chain, k) == left; ++k) part.particle.push_back(chain.particle[k + 1]);
+      result.push_back(std::move(part));
+    }
+  }
+  chains = std::move(result);
 }
 
 /// 1 where the chart shows the face of the chain's first side, -1 where it shows its back.
@@ -155,6 +197,14 @@ int face_of(const Chart& chart, const FoldChain& chain, const model::Model& mode
 }
 
 }  // namespace
+
+bool folds_as_one(const design::Seam& seam) {
+  if (seam.sides.size() != 2 || seam.finish.lap > 0 || seam.finish.slack > 0) return false;
+  for (const design::SeamSide& side : seam.sides)
+    for (const design::EdgePart& part : side.parts)
+      if (part.on == design::EdgePart::On::line) return false;
+  return true;
+}
 
 bool follows_fold(const design::Press& press, const design::Panel& panel, const design::EdgePart& part, double h) {
   constexpr double kNarrow = 1.5;     // of the grid
@@ -177,9 +227,9 @@ std::vector<FoldChain> fold_chains(const design::Garment& garment, const std::ve
   for (const design::Seam& seam : garment.seams) {
     double angle = seam.finish.fold_angle ? signed_fold(*seam.finish.fold_angle, seam.finish.fold_to) : 0;
     if (seam.finish.turned) angle = signed_fold(portable::kPi, design::Facing::back);
-    if (angle == 0) continue;
+    if (angle == 0 || !folds_as_one(seam)) continue;  // told as not modelled
     for (const model::SeamChain& chain : model.seams)
-      if (chain.name == seam.name) chains.push_back({chain.particles, angle, true, turned_over(garment, seam)});
+      if (chain.name == seam.name) chains.push_back({chain.particles, angle, true, turned_over(garment, seam, 0)});
   }
   for (std::size_t k = 0; k < garment.presses.size(); ++k) {
     const design::Press& press = garment.presses[k];
@@ -189,14 +239,14 @@ std::vector<FoldChain> fold_chains(const design::Garment& garment, const std::ve
       const bool line = part.on == design::EdgePart::On::line;
       if (line && !follows_fold(press, garment.panels[part.panel], part, outlines[part.panel].h)) continue;
       const Pressed pressed(garment, k, part.panel);
-      add_runs(particles_on(part, outlines, borders, panels, model), angle, !line, pressed, chains);
+      add_runs(particles_on(part, outlines, borders, panels, model), {{}, angle, !line, turned_over(garment, part)}, pressed, chains);
     }
   }
   for (std::size_t p = 0; p < panels.size(); ++p) {
     const std::vector<LaidPleat> pleats = laid_pleats(garment.panels[p]);
     const Border& border = borders.panels[p];
-    for (std::size_t k = 0; k < outlines[p].lines.size(); ++k) {
-      const InnerLine& line = outlines[p].lines[k];
+    for (std::size_t k = 0; k < outlines[p].outline.lines.size(); ++k) {
+      const InnerLine& line = outlines[p].outline.lines[k];
       if (line.pleat < 0 || !garment.panels[p].pleats[pleats[line.pleat].pleat].ironed) continue;
       for (const LaidPleat::Fold& fold : pleats[line.pleat].folds) {
         if (!same_place(fold.at, line.at)) continue;
@@ -208,6 +258,7 @@ std::vector<FoldChain> fold_chains(const design::Garment& garment, const std::ve
       }
     }
   }
+  clamp_sums(chains);
   return chains;
 }
 

@@ -21,6 +21,10 @@ struct FoldChain {
 std::vector<FoldChain> fold_chains(const design::Garment& garment, const std::vector<BorderPanel>& outlines,
                                    const Borders& borders, const std::vector<MeshedPanel>& panels, const model::Model& model);
 
+/// True of a seam that joins two sheets into one, which can be folded along it: not one onto a line inside a panel, of three
+/// sides, or one that is tied.
+bool folds_as_one(const design::Seam& seam);
+
 /// True where the mesh follows the fold and the fitted stencils keep it: narrower than the grid `h`, m, or at a slant to the
 /// threads of the panel; other folds lie in the threads that cross them.
 bool follows_fold(const design::Press& press, const design::Panel& panel, const design::EdgePart& part, double h);

@@ -14,7 +14,6 @@ namespace garment::modeller {
 struct BorderPanel {
   const design::Panel* panel = nullptr;
   double h = 0.01;
-  std::vector<InnerLine> lines;  ///< that the mesh follows; the outline's inner lines, in order
   Outline outline;
 };
 

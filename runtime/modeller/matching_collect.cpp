@@ -10,6 +10,7 @@ namespace garment::modeller {
 namespace {
 
 constexpr double kSnap = 0.2;   // of h: breaks closer than this are one
+constexpr double kSame = 1e-4;  // of h: places of one pleat
 constexpr double kTiny = 1e-7;  // m: shorter sewn lengths are none
 
 bool is_valid(const design::Garment& garment, const design::EdgePart& part) {
@@ -56,8 +57,8 @@ std::vector<design::EdgePart> without(const design::EdgePart& part, Stretches ta
   return rest;
 }
 
-/// What remains of a part of an edge once the darts are cut, in walking order.
-std::vector<SideSegment> resolve(const design::EdgePart& part, std::vector<BorderPanel>& panels) {
+/// What remains of a part of an edge once the darts are cut, in walking order. Its ends go to breaks within `snap` spacings.
+std::vector<SideSegment> resolve(const design::EdgePart& part, std::vector<BorderPanel>& panels, double snap = kSnap) {
   std::vector<SideSegment> segments;
   BorderPanel& panel = panels[part.panel];
   double low = std::min(part.from, part.to), high = std::max(part.from, part.to);
@@ -67,10 +68,13 @@ std::vector<SideSegment> resolve(const design::EdgePart& part, std::vector<Borde
     double a = std::max(low, std::min(piece.from, piece.to)),
            b = std::min(high, std::max(piece.from, piece.to));
     if (b - a <= kTiny) continue;
-    double t_a = break_at(piece, std::clamp(piece.position(a), 0.0, piece.length()), kSnap * panel.h);
-    double t_b = std::clamp(piece.position(b), 0.0, piece.length());
-    double snapped = break_at(piece, t_b, kSnap * panel.h);
-    if (snapped == t_a) snapped = break_at(piece, t_b, 0);  // a part shorter than the snapping distance stays
+    const double end_a = std::clamp(piece.position(a), 0.0, piece.length()),
+                 end_b = std::clamp(piece.position(b), 0.0, piece.length());
+    double t_a = break_at(piece, end_a, snap * panel.h), snapped = break_at(piece, end_b, snap * panel.h);
+    if (snapped == t_a) {  // a part shorter than the snapping distance stays
+      t_a = break_at(piece, end_a, 0);
+      snapped = break_at(piece, end_b, 0);
+    }
     if (snapped == t_a) continue;
     SideSegment s{part.panel, static_cast<int>(k), t_a, snapped, 0, 1};
     if (part.from > part.to) std::swap(s.t0, s.t1);
@@ -271,7 +275,7 @@ std::vector<design::EdgePart> sewn_from(double from, int way, double length, con
 Side side_of(const std::vector<design::EdgePart>& parts, std::vector<BorderPanel>& panels) {
   Side side;
   for (const design::EdgePart& part : parts)
-    for (const SideSegment& s : resolve(part, panels)) side.segments.push_back(s);
+    for (const SideSegment& s : resolve(part, panels, kSame)) side.segments.push_back(s);
   finish(side);
   return side;
 }
@@ -312,9 +316,9 @@ void collect_pleats(std::vector<BorderPanel>& panels, std::vector<Matching>& res
       }
       if (panel.pleats[pleat.pleat].length <= 0) continue;
       matching.sides.clear();
-      for (std::size_t l = 0; l < panels[p].lines.size(); ++l) {
-        const InnerLine& line = panels[p].lines[l];
-        if (line.pleat != static_cast<int>(k) || (!same_place(line.at, pleat.from) && !same_place(line.at, pleat.to))) continue;
+      for (std::size_t l = 0; l < panels[p].outline.lines.size(); ++l) {
+        const InnerLine& line = panels[p].outline.lines[l];
+        if (line.from > kTiny || line.pleat != static_cast<int>(k) || (!same_place(line.at, pleat.from) && !same_place(line.at, pleat.to))) continue;
         const std::size_t piece = panels[p].outline.begin_of(panels[p].outline.n_closed + l);
         Piece& drawn = panels[p].outline.pieces[piece];
         const double end = std::min(panel.pleats[pleat.pleat].length, drawn.length());

@@ -118,8 +118,8 @@ std::vector<BorderPanel> cut_outlines(const design::Garment& garment, const Mode
   for (std::size_t p = 0; p < panels.size(); ++p) {
     panels[p].panel = &garment.panels[p];
     panels[p].h = spacing_of(garment.panels[p], options);
-    panels[p].lines = lines_to_follow(garment, static_cast<int>(p), panels[p].h);
-    if (std::optional<Outline> outline = cut_outline(garment.panels[p], panels[p].h, panels[p].lines, findings))
+    const std::vector<InnerLine> lines = lines_to_follow(garment, static_cast<int>(p), panels[p].h);
+    if (std::optional<Outline> outline = cut_outline(garment.panels[p], panels[p].h, lines, findings))
       panels[p].outline = std::move(*outline);
   }
   return panels;

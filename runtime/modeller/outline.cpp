@@ -14,6 +14,7 @@ namespace {
 
 /// Ends that lie closer than this meet, m: below what any pattern file resolves, far above rounding.
 constexpr double kMeet = 1e-5;
+constexpr double kNear = 0.02;  // of h: what lies this near to a border or line lies on it
 constexpr double kJoin = 0.2;  // of h: lines join the border at a particle this near
 
 double cross(const Point2& a, const Point2& b) { return a.x() * b.y() - a.y() * b.x(); }
@@ -191,22 +192,15 @@ bool check_lens(const design::Panel& panel, const design::InsideDart& dart, Find
   return false;
 }
 
-void append_lines(const std::vector<InnerLine>& lines, Outline& outline) {
-  for (const InnerLine& line : lines) {
-    Piece piece;
-    piece.curve = line.curve;
-    piece.edge = line.line;
-    piece.on = design::EdgePart::On::line;
-    piece.to = line.curve.length();
-    outline.loops.push_back(outline.pieces.size());
-    outline.pieces.push_back(std::move(piece));
-  }
-}
-
 /// A piece as a polyline, with the position of every point.
 struct Trace {
   std::vector<Point2> at;
   std::vector<double> t;
+  Point2 low{1e300, 1e300}, high{-1e300, -1e300};
+
+  bool may_meet(const Trace& other, double reach) const {
+    return ((low - other.high).array() <= reach).all() && ((other.low - high).array() <= reach).all();
+  }
 };
 
 Trace trace_of(const Piece& piece, double h) {
@@ -216,6 +210,8 @@ Trace trace_of(const Piece& piece, double h) {
   for (int i = 0; i <= n; ++i) {
     trace.t.push_back(length * i / n);
     trace.at.push_back(piece.at(trace.t.back()));
+    trace.low = trace.low.cwiseMin(trace.at.back());
+    trace.high = trace.high.cwiseMax(trace.at.back());
   }
   return trace;
 }
@@ -237,7 +233,9 @@ std::pair<double, double> nearest(const Trace& trace, const Point2& p) {
 /// Where two traces cross: positions on both.
 std::vector<std::pair<double, double>> crossings(const Trace& a, const Trace& b) {
   std::vector<std::pair<double, double>> result;
-  for (std::size_t i = 0; i + 1 < a.at.size(); ++i)
+  for (std::size_t i = 0; i + 1 < a.at.size(); ++i) {
+    const Point2 low = a.at[i].cwiseMin(a.at[i + 1]), high = a.at[i].cwiseMax(a.at[i + 1]);
+    if (((low - b.high).array() > 0).any() || ((b.low - high).array() > 0).any()) continue;
     for (std::size_t j = 0; j + 1 < b.at.size(); ++j) {
       const Point2 u = a.at[i + 1] - a.at[i], v = b.at[j + 1] - b.at[j], off = b.at[j] - a.at[i];
       const double det = cross(u, v);
@@ -246,6 +244,7 @@ std::vector<std::pair<double, double>> crossings(const Trace& a, const Trace& b)
       if (s < 0 || s >= 1 || r < 0 || r >= 1) continue;
       result.emplace_back(a.t[i] + s * (a.t[i + 1] - a.t[i]), b.t[j] + r * (b.t[j + 1] - b.t[j]));
     }
+  }
   return result;
 }
 
@@ -259,25 +258,74 @@ void join(std::size_t a, double t_a, std::size_t b, double t_b, double tolerance
 void join_lines(double h, Outline& outline) {
   const std::size_t first = outline.n_closed < outline.loops.size() ? outline.loops[outline.n_closed] : outline.pieces.size();
   if (first == outline.pieces.size()) return;
-  const double near = 0.02 * h, snap = kJoin * h;
+  const double near = kNear * h, snap = kJoin * h;
   std::vector<Trace> traces;
   for (const Piece& piece : outline.pieces) traces.push_back(trace_of(piece, h));
   for (std::size_t line = first; line < outline.pieces.size(); ++line) {
     const double length = outline.pieces[line].length();
-    bool ends[2] = {false, false};  // joined
     for (std::size_t other = 0; other < outline.pieces.size(); ++other) {
-      if (other == line) continue;
+      if (other == line || !traces[line].may_meet(traces[other], near)) continue;
       for (int e = 0; e < 2; ++e) {  // ends that lie on the other one
         const Point2 end = e == 0 ? traces[line].at.front() : traces[line].at.back();
         const auto [distance, t] = nearest(traces[other], end);
-        if (ends[e] || distance > near) continue;
-        join(other, t, line, e == 0 ? 0 : length, snap, outline);
-        ends[e] = true;
+        if (distance <= near) join(other, t, line, e == 0 ? 0 : length, snap, outline);
       }
       if (other < first || other > line) continue;
       for (const auto& [t_line, t_other] : crossings(traces[line], traces[other]))
         if (t_line > snap && t_line < length - snap && t_other > snap && t_other < outline.pieces[other].length() - snap)
           join(other, t_other, line, t_line, snap, outline);
+    }
+  }
+}
+
+Piece piece_of(const InnerLine& line, double from, double to) {
+  Piece piece;
+  piece.curve = line.curve;
+  piece.edge = line.line;
+  piece.on = design::EdgePart::On::line;
+  piece.from = from;
+  piece.to = to;
+  return piece;
+}
+
+/// Is there cloth at the point? Even-odd over the closed loops.
+bool on_cloth(const Point2& p, const std::vector<Trace>& border) {
+  bool inside = false;
+  for (const Trace& trace : border)
+    for (std::size_t k = 0; k + 1 < trace.at.size(); ++k) {
+      const Point2 &a = trace.at[k], &b = trace.at[k + 1];
+      if ((a.y() <= p.y()) != (b.y() <= p.y()) && p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()))
+        inside = !inside;
+    }
+  return inside;
+}
+
+/// Adds what of the lines lies on the cloth, off its border.
+void append_lines(const std::vector<InnerLine>& lines, double h, Outline& outline) {
+  std::vector<Trace> border;
+  if (!lines.empty())
+    for (const Piece& piece : outline.pieces) border.push_back(trace_of(piece, h));
+  for (const InnerLine& line : lines) {
+    const double length = line.curve.length();
+    if (!is_finite(line.curve) || !(length > kMeet)) continue;
+    const Trace trace = trace_of(piece_of(line, 0, length), h);
+    std::vector<double> cuts{0, length};
+    for (const Trace& piece : border) {
+      if (!trace.may_meet(piece, kNear * h)) continue;
+      for (const auto& [t, unused] : crossings(trace, piece)) cuts.push_back(t);
+      if (const auto [distance, t] = nearest(trace, piece.at.front()); distance <= kNear * h) cuts.push_back(t);  // a corner
+    }
+    std::sort(cuts.begin(), cuts.end());
+    for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
+      if (!(cuts[k + 1] - cuts[k] > kNear * h)) continue;
+      const Point2 middle = line.curve.point_at(0.5 * (cuts[k] + cuts[k + 1]));
+      const bool along_border = std::any_of(border.begin(), border.end(), [&](const Trace& piece) { return nearest(piece, middle).first <= kNear * h; });
+      if (along_border || !on_cloth(middle, border)) continue;
+      outline.lines.push_back(line);
+      outline.lines.back().from = cuts[k];
+      outline.lines.back().to = cuts[k + 1];
+      outline.loops.push_back(outline.pieces.size());
+      outline.pieces.push_back(piece_of(line, cuts[k], cuts[k + 1]));
     }
   }
 }
@@ -426,7 +474,7 @@ std::optional<Outline> cut_outline(const design::Panel& panel, double h, const s
   for (std::size_t l = 0; l < outline.loops.size(); ++l)
     if (!check_crossing(panel, outline, l, h, findings)) return std::nullopt;
   outline.n_closed = outline.loops.size();
-  append_lines(lines, outline);
+  append_lines(lines, h, outline);
   if (panel.fold_x && outline.loops.size() == 1) find_half(outline, *panel.fold_x);
   for (Piece& piece : outline.pieces) piece.breaks = {0, piece.length()};
   join_lines(h, outline);

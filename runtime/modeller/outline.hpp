@@ -32,9 +32,11 @@ struct Piece {
   double bulge(double t0, double t1) const;
 };
 
-/// A line inside a panel that the mesh follows: cloth on both sides, particles along it.
+/// A line inside a panel that the mesh follows: cloth on both sides, particles along it. Of a line that leaves the cloth - over
+/// a dart, a hole, a corner - each part inside is one.
 struct InnerLine {
   geometry::Curve curve;
+  double from = 0, to = -1;  ///< arc lengths of the part; the whole curve where to < from
   int line = -1;   ///< index into Panel::lines; -1: nobody drew it
   int pleat = -1;  ///< index into laid_pleats(panel) of the pleat that it belongs to; -1: to none
   double at = 0;   ///< arc length on the pleat's edge where it begins, m
@@ -50,6 +52,7 @@ struct Outline {
   std::vector<Piece> pieces;           ///< loop by loop, the outline first; then the inner lines, one piece each
   std::vector<std::size_t> loops{0};   ///< where each loop begins in `pieces`
   std::size_t n_closed = 1;            ///< loops from here on are inner lines
+  std::vector<InnerLine> lines;        ///< the inner lines: of loop n_closed + k
   std::vector<Joint> joints;
   double area = 0;  ///< exact: edges by Green's theorem, darts and holes cut away, m^2
   /// On a panel symmetric about its fold: pieces [0, n_half) are the half of larger x from its lower fold

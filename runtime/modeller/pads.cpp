@@ -23,10 +23,20 @@ class PadShape {
     for (const Point2& p : places)
       if (inside(p)) low = low.cwiseMin(p), high = high.cwiseMax(p);
     if (!(low.x() <= high.x())) return;
+    const double beyond = 2 * garment.panels[pad.panel].resolution;  // no particle need lie at the border
+    low -= Point2(beyond, beyond);
+    high += Point2(beyond, beyond);
     const double step = std::max(kSample, (high - low).maxCoeff() / 100);
-    for (double y = low.y() - 2 * step; y <= high.y() + 2 * step; y += step)
-      for (double x = low.x() - 2 * step; x <= high.x() + 2 * step; x += step)
-        if (!inside({x, y})) outside_.emplace_back(x, y);
+    auto look = [&](const auto& is_outside) {
+      for (double y = low.y(); y <= high.y(); y += step)
+        for (double x = low.x(); x <= high.x(); x += step)
+          if (is_outside(Point2(x, y))) outside_.emplace_back(x, y);
+    };
+    look([&](const Point2& p) { return !inside(p); });
+    if (outside_.empty()) {  // a region without a border of its own: the panel's
+      const design::RegionTest outline(garment.panels[pad.panel], design::outline_shape(garment.panels[pad.panel]));
+      look([&](const Point2& p) { return !outline.contains(p); });
+    }
     for (const Point2& p : places)
       if (inside(p)) deepest_ = std::max(deepest_, depth(p));
   }

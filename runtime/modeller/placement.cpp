@@ -310,7 +310,7 @@ bool lay_on_others(Workspace& w) {
   for (const design::Stacking& s : w.garment.stackings) {
     if (w.done[s.panel] || !w.done[s.other]) continue;
     const double gap = std::max(layer_gap(w.garment, s.panel), layer_gap(w.garment, s.other));
-    if (!lay_panel(w.model, s.panel, s.other, s.over ? gap : -gap, w.place)) continue;
+    if (!lay_panel(w.model, s.panel, s.other, w.flat, s.over ? gap : -gap, w.place)) continue;
     return w.done[s.panel] = true;
   }
   return false;

@@ -41,14 +41,16 @@ Motion best_motion(const std::vector<Vector2d>& here, const std::vector<Vector2d
 
 }  // namespace
 
-bool lay_panel(const model::Model& model, std::size_t panel, std::size_t other, double gap, std::vector<Vector3d>& place) {
+bool lay_panel(const model::Model& model, std::size_t panel, std::size_t other, const std::vector<Vector3d>& flat_shape, double gap,
+               std::vector<Vector3d>& place) {
+  auto own = [&](Index v) -> Vector2d { return flat_shape[v].head<2>(); };
   std::map<Index, Index> of_other;  // particle to vertex
   const model::PanelRange &range = model.panels[panel], &under = model.panels[other];
   for (Index v = under.first_vertex; v < under.first_vertex + under.n_vertices; ++v) of_other.emplace(model.vertex_particle[v], v);
   std::vector<Vector2d> here, there;
   for (Index v = range.first_vertex; v < range.first_vertex + range.n_vertices; ++v)
     if (const auto shared = of_other.find(model.vertex_particle[v]); shared != of_other.end()) {
-      here.push_back(model.vertex_uv[v]);
+      here.push_back(own(v));
       there.push_back(model.vertex_uv[shared->second]);
     }
   if (here.size() < 2) return false;
@@ -58,7 +60,7 @@ bool lay_panel(const model::Model& model, std::size_t panel, std::size_t other, 
     int n = 0;
     std::array<double, 3> weights{};
     for (Index v = range.first_vertex; v < range.first_vertex + range.n_vertices; ++v)
-      n += flat.locate(motion(model.vertex_uv[v]), weights) >= 0 && *std::min_element(weights.begin(), weights.end()) > -1e-6;
+      n += flat.locate(motion(own(v)), weights) >= 0 && *std::min_element(weights.begin(), weights.end()) > -1e-6;
     return n;
   };
   // A straight seam fits both ways: then the panel lies where there is more cloth under it.
@@ -67,12 +69,13 @@ bool lay_panel(const model::Model& model, std::size_t panel, std::size_t other, 
   const Motion& motion = turned ? over : plain;
   for (Index v = range.first_vertex; v < range.first_vertex + range.n_vertices; ++v) {
     std::array<double, 3> weights{};
-    const Index t = flat.locate(motion(model.vertex_uv[v]), weights);
+    const Index t = flat.locate(motion(own(v)), weights);
     if (t < 0) return false;
     const model::Indices<3>& c = model.triangle[t];
     const Vector3d normal = (place[c[1]] - place[c[0]]).cross(place[c[2]] - place[c[0]]);
     place[v] = weights[0] * place[c[0]] + weights[1] * place[c[1]] + weights[2] * place[c[2]];
-    if (normal.norm() > 0) place[v] += gap * normal.normalized();
+    const double above = turned ? -flat_shape[v].z() : flat_shape[v].z();
+    if (normal.norm() > 0) place[v] += (gap + above) * normal.normalized();
   }
   return true;
 }

@@ -8,9 +8,10 @@ namespace garment::modeller {
 
 /// Lays `panel` on the placed panel `other`, `gap` (m) towards its face, or towards its back where it is negative: the two
 /// patterns are brought together at the particles that they share, by a rotation or, where that fits better, by turning the
-/// panel over; then each vertex takes the place of `other` there, and lies off it. Fills `place` [n_vertices]; false where they
+/// panel over; then each vertex takes the place of `other` there, and lies off it. `flat` [n_vertices] holds the panel's own
+/// shape, its pleats folded: places in its plane, and the distance from it, m. Fills `place` [n_vertices]; false where they
 /// share fewer than two particles.
-bool lay_panel(const model::Model& model, std::size_t panel, std::size_t other, double gap,
+bool lay_panel(const model::Model& model, std::size_t panel, std::size_t other, const std::vector<Eigen::Vector3d>& flat, double gap,
                std::vector<Eigen::Vector3d>& place);
 
 }  // namespace garment::modeller

@@ -179,6 +179,7 @@ std::vector<InnerLine> pleat_lines(const design::Panel& panel) {
     }
     std::sort(wanted.begin(), wanted.end());
     for (const auto& [at, length] : wanted) {
+      if (at < kTiny || at > panel.edges[p.edge].curve.length() - kTiny) continue;  // the next edge runs there
       const Point2 start = panel.edges[p.edge].curve.point_at(at);
       const double room = depth_of(panel, start, p.in);
       if (room > 1e8) continue;

@@ -62,11 +62,15 @@ std::vector<Index> sew(const std::vector<Matching>& matchings, const Matched& ma
     const std::vector<StretchTuple>& tuples = matched.tuples[m];
     if (matchings[m].tied() || matchings[m].tension != 0) {
       SewnSides sewn{&matchings[m], std::vector<std::vector<Index>>(matchings[m].sides.size())};
-      for (const StretchTuple& tuple : tuples)
+      for (const StretchTuple& tuple : tuples) {
+        bool on = true;  // all sides go on from where they were: not over a dart, not on another panel
+        for (std::size_t s = 0; s < tuple.stretch.size(); ++s)
+          on = on && !sewn.side[s].empty() && sewn.side[s].back() == walk(tuple.stretch[s], tuple.forward[s])[0];
         for (std::size_t s = 0; s < tuple.stretch.size(); ++s) {
           const Walk along = walk(tuple.stretch[s], tuple.forward[s]);
-          for (int k = sewn.side[s].empty() ? 0 : 1; k <= along.count; ++k) sewn.side[s].push_back(along[k]);
+          for (int k = on ? 1 : 0; k <= along.count; ++k) sewn.side[s].push_back(along[k]);
         }
+      }
       sides.push_back(std::move(sewn));
     }
     if (!matchings[m].merge) continue;

@@ -61,20 +61,24 @@ void part(const Station& s, PanelMesh& mesh) {
 }  // namespace
 
 void open_slits(const BorderPanel& panel, const Border& border, PanelMesh& mesh) {
-  for (const design::Slit& slit : panel.panel->slits)
-    for (std::size_t k = 0; k < panel.lines.size(); ++k) {
-      if (panel.lines[k].line != slit.line) continue;
-      std::vector<int> chain;
-      for (int v = border.loops[border.n_closed + k]; v < border.end_of(border.n_closed + k); ++v) chain.push_back(border.same[v]);
-      const std::vector<Station> parted = stations(chain, border, mesh);
-      const std::size_t first = mesh.at.size();
-      for (const Station& s : parted) part(s, mesh);
-      for (std::size_t j = 0; j < parted.size(); ++j) {
-        const Point2 off = kHalfGap * parted[j].left();
-        mesh.at[parted[j].vertex] += off;
-        mesh.at[first + j] -= off;
-      }
+  const std::vector<InnerLine>& lines = panel.outline.lines;
+  auto is_cut = [&](const InnerLine& line) {
+    return std::any_of(panel.panel->slits.begin(), panel.panel->slits.end(),
+                       [&](const design::Slit& slit) { return line.line >= 0 && slit.line == line.line; });
+  };
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    if (!is_cut(lines[k])) continue;
+    std::vector<int> chain;
+    for (int v = border.loops[border.n_closed + k]; v < border.end_of(border.n_closed + k); ++v) chain.push_back(border.same[v]);
+    const std::vector<Station> parted = stations(chain, border, mesh);
+    const std::size_t first = mesh.at.size();
+    for (const Station& s : parted) part(s, mesh);
+    for (std::size_t j = 0; j < parted.size(); ++j) {
+      const Point2 off = kHalfGap * parted[j].left();
+      mesh.at[parted[j].vertex] += off;
+      mesh.at[first + j] -= off;
     }
+  }
 }
 
 }  // namespace garment::modeller

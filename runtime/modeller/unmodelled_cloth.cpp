@@ -1,16 +1,17 @@
 // Of seams, hems, layers and pressing: what the modeller leaves out.
 #include "runtime/modeller/unmodelled_cloth.hpp"
 
-#include <cmath>
-
-#include "runtime/base/portable_math.hpp"
+#include "runtime/modeller/folding.hpp"
 
 namespace garment::modeller {
-namespace {
-
-}  // namespace
 
 void find_unmodelled_cloth(const design::Garment& garment, const SayUnmodelled& say) {
+  for (const design::Seam& seam : garment.seams) {
+    const design::SeamFinish& f = seam.finish;
+    if ((f.turned || f.fold_angle) && !folds_as_one(seam))
+      say(std::string(f.turned ? "`turned`" : "`fold`") + " of seam `" + seam.name + "`", seam.origin);
+    if (f.stiffness != 1 && (f.lap > 0 || f.slack > 0)) say("`stiffness` of seam `" + seam.name + "`", seam.origin);
+  }
   for (const design::Pad& pad : garment.pads)
     if (pad.side == design::Facing::face) say("pad `" + pad.name + "` on the face", pad.origin);
   for (const design::Region& region : garment.regions)

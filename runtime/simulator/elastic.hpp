@@ -48,7 +48,7 @@ class ElasticModel {
   /// make_matrix().
   ///   springs, cut cells, ties   N' n nT + max(N, 0) / l (I - n nT): exact in tension, no transversal part in
   ///   compression shear                Gauss-Newton, G grad(phi) grad(phi)T bends Gauss-Newton on the
-  ///   difference of the edge directions, isotropic twist, fits          exact (quadratic energies)
+  ///   difference of the edge directions, isotropic twist, fits          exact (quadratic energies; of folded fits without the part that comes of their turning)
   double energy_force_hessian(const std::vector<Eigen::Vector3d>& x, std::vector<Eigen::Vector3d>& force,
                               BlockMatrix& hessian) const;
 
