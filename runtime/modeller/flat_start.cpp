@@ -14,13 +14,27 @@ using model::Vector3d;
 
 constexpr double kLeastGap = 2e-3;  // m
 
-/// How many layers above (towards the face) or below the others a panel lies, where `over` and `under` say so.
-std::vector<int> layer_of_panels(const design::Garment& garment) {
-  std::vector<int> layer(garment.panels.size(), 0);
-  for (std::size_t round = 0; round < garment.panels.size(); ++round)  // a chain is no longer than that
-    for (const design::Stacking& s : garment.stackings)
-      layer[s.panel] = s.over ? std::max(layer[s.panel], layer[s.other] + 1) : std::min(layer[s.panel], layer[s.other] - 1);
-  return layer;
+/// How far a panel reaches below (towards the back) and above its plane, m.
+struct Reach {
+  double below = 0, above = 0;
+};
+
+/// How far off its place each panel starts, m, so that what lies over or under others clears them.
+std::vector<double> offsets(const design::Garment& garment, const std::vector<Reach>& reach) {
+  std::vector<double> off(garment.panels.size(), 0);
+  for (std::size_t round = 0; round < garment.panels.size(); ++round) {  // a chain is no longer than that
+    bool moved = false;
+    for (const design::Stacking& s : garment.stackings) {
+      const double gap = std::max(layer_gap(garment, s.panel), layer_gap(garment, s.other));
+      const double over = off[s.other] + reach[s.other].above + gap + reach[s.panel].below,
+                   under = off[s.other] - reach[s.other].below - gap - reach[s.panel].above;
+      const double before = off[s.panel];
+      off[s.panel] = s.over ? std::max(before, over) : std::min(before, under);
+      moved = moved || off[s.panel] != before;
+    }
+    if (!moved) break;
+  }
+  return off;
 }
 
 /// The line along which a panel is folded in half.
@@ -77,14 +91,12 @@ double layer_gap(const design::Garment& garment, int panel) {
 
 std::vector<Vector3d> flat_start(const design::Garment& garment, const model::Model& model) {
   std::vector<Vector3d> flat(model.n_vertices());
-  const std::vector<int> layer = layer_of_panels(garment);
+  std::vector<Reach> reach(garment.panels.size());
   for (std::size_t p = 0; p < garment.panels.size(); ++p) {
     const design::Panel& panel = garment.panels[p];
     const std::vector<LaidPleat> pleats = laid_pleats(panel);
     const PleatedEdges pleated(panel, pleats);
     const double gap = layer_gap(garment, static_cast<int>(p));
-    // A panel that is placed by hand lies where it was put, one without a place is laid on the other.
-    const bool on_body = panel.placement.kind == Placement::Kind::on_part || panel.placement.kind == Placement::Kind::around;
     const model::PanelRange& range = model.panels[p];
     const Index end = range.first_vertex + range.n_vertices;
     Point2 low(1e300, 1e300), high(-1e300, -1e300);
@@ -92,19 +104,31 @@ std::vector<Vector3d> flat_start(const design::Garment& garment, const model::Mo
       flat[v] = fold_pleats(pleats, model.vertex_uv[v], gap);
       // What the edge's seam holds together is one line: the layers part from there.
       if (flat[v].z() != 0 && pleated.hold(model.vertex_uv[v])) flat[v].z() = 0;
-      if (on_body) flat[v].z() += gap * layer[p];
       low = low.cwiseMin(flat[v].head<2>());
       high = high.cwiseMax(flat[v].head<2>());
     }
-    if (!panel.placement.folded) continue;
-    const Axis axis = half_axis(garment, static_cast<int>(p), low, high);
-    const Point2 across(-axis.along.y(), axis.along.x());
-    for (Index v = range.first_vertex; v < end; ++v) {
-      const double off = (flat[v].head<2>() - axis.at).dot(across);
-      if (off <= 0) continue;
-      flat[v].head<2>() -= 2 * off * across;
-      flat[v].z() = axis.side * gap - flat[v].z();
+    if (panel.placement.folded) {
+      const Axis axis = half_axis(garment, static_cast<int>(p), low, high);
+      const Point2 across(-axis.along.y(), axis.along.x());
+      for (Index v = range.first_vertex; v < end; ++v) {
+        const double off = (flat[v].head<2>() - axis.at).dot(across);
+        if (off <= 0) continue;
+        flat[v].head<2>() -= 2 * off * across;
+        flat[v].z() = axis.side * gap - flat[v].z();
+      }
     }
+    for (Index v = range.first_vertex; v < end; ++v) {
+      reach[p].below = std::max(reach[p].below, -flat[v].z());
+      reach[p].above = std::max(reach[p].above, flat[v].z());
+    }
+  }
+  const std::vector<double> off = offsets(garment, reach);
+  for (std::size_t p = 0; p < garment.panels.size(); ++p) {
+    // A panel that is placed by hand lies where it was put, one without a place is laid on the other.
+    const Placement::Kind kind = garment.panels[p].placement.kind;
+    if (off[p] == 0 || (kind != Placement::Kind::on_part && kind != Placement::Kind::around)) continue;
+    const model::PanelRange& range = model.panels[p];
+    for (Index v = range.first_vertex; v < range.first_vertex + range.n_vertices; ++v) flat[v].z() += off[p];
   }
   return flat;
 }

@@ -162,10 +162,18 @@ struct Ring {
   double low = 1e300, high = -1e300, offset = 0.01;
 };
 
+/// What lies round the body, side by side: not what lies over or under it.
 double ring_width(const Workspace& w, const Ring& ring) {
-  double total = 0;
-  for (std::size_t p : ring.panels) total += extent_of(w, p).width();
-  return total;
+  double total = 0, all = 0;
+  for (std::size_t p : ring.panels) {
+    const double width = extent_of(w, p).width();
+    const bool layered = std::any_of(w.garment.stackings.begin(), w.garment.stackings.end(), [&](const design::Stacking& s) {
+      return s.panel == static_cast<int>(p) && std::find(ring.panels.begin(), ring.panels.end(), static_cast<std::size_t>(s.other)) != ring.panels.end();
+    });
+    all += width;
+    if (!layered) total += width;
+  }
+  return total > 0 ? total : all;
 }
 
 void lay_on(Workspace& w, const Ring& ring, const WrapCurve& curve) {
