@@ -21,6 +21,7 @@ using model::Vector3d;
 constexpr double kLeastLength = 1e-3;       // m, of a tie: more than contact keeps the thinnest cloths apart
 constexpr double kButtonStiffness = 1e4;    // N/m, of a sewn shank: 0.5 mm under 5 N
 constexpr double kStitchStiffness = 2e3;    // N/m, of one stitch of a tack
+constexpr double kSeamStiffness = 2e5;      // N/m per m of a tied seam: a stitch of a tack to the centimetre
 constexpr double kThreadStiffness = 100;    // N per strain, of two sewing threads (tex 30 polyester: 12 N at 15 to 20 %)
 constexpr double kStitchEvery = 0.02;       // m between the stitches of a tack
 constexpr int kFiner = 3;                   // times that the stitches of a small region are set twice as close
@@ -103,7 +104,7 @@ class Ties {
     begin(sewn.seam->name, sewn.seam->origin, 0);
     for (std::size_t s = 1; s < sewn.side.size(); ++s)
       for (std::size_t k = 0; k < std::min(sewn.side[0].size(), sewn.side[s].size()); ++k)
-        add_thread(place_at(sewn.side[0][k]), place_at(sewn.side[s][k]), sewn.seam->slack, kStitchStiffness);
+        add_thread(place_at(sewn.side[0][k]), place_at(sewn.side[s][k]), sewn.seam->slack, kSeamStiffness * held_by(sewn.side[0], k));
   }
 
   void lap(const SewnSides& sewn) {
@@ -112,7 +113,7 @@ class Ties {
       for (const auto& [from, to] : {std::pair{std::size_t{0}, s}, std::pair{s, std::size_t{0}}})
         for (std::size_t k = 0; k < std::min(sewn.side[from].size(), sewn.side[to].size()); ++k)
           if (const std::optional<Place> under = inside(sewn.side[to], sewn.side[from], k, sewn.seam->lap))
-            add(place_at(sewn.side[from][k]), *under, 0, kStitchStiffness);
+            add(place_at(sewn.side[from][k]), *under, 0, kSeamStiffness * held_by(sewn.side[from], k));
   }
 
   void thread(const SewnSides& sewn) {
@@ -160,6 +161,15 @@ class Ties {
   Place place_at(Index vertex) const {
     const Index particle = model_.vertex_particle[vertex];
     return {model_.vertex_panel[vertex], {particle, particle, particle}, {1, 0, 0}};
+  }
+
+  /// Length of a side that its vertex k stands for, m; at least 1 mm.
+  double held_by(const std::vector<Index>& side, std::size_t k) const {
+    double length = 0;
+    for (std::size_t other : {k > 0 ? k - 1 : k, std::min(k + 1, side.size() - 1)})
+      if (model_.vertex_panel[side[other]] == model_.vertex_panel[side[k]])
+        length += 0.5 * (model_.vertex_uv[side[other]] - model_.vertex_uv[side[k]]).norm();
+    return std::max(length, 1e-3);
   }
 
   /// Across a side at its vertex k, to the left of its way; zero where it has no way.

@@ -39,6 +39,21 @@ void lay_box(LaidPleat& p) {
   p.layers = {{a, -1, {a, a + 2 * u}, a + u}, {b, 1, {b, a + 2 * u}, a + 3 * u}};
 }
 
+double arc_of(const LaidPleat& p, const Point2& flat) { return p.middle + (flat - p.origin).dot(p.along); }
+
+/// Pleats whose stretch lies across the panel from that of another one, on another edge.
+void find_opposites(std::vector<LaidPleat>& pleats) {
+  constexpr double kParallel = 0.99;
+  for (std::size_t k = 0; k < pleats.size(); ++k)
+    for (std::size_t j = 0; j < k; ++j) {
+      LaidPleat& p = pleats[k];
+      const LaidPleat& before = pleats[j];
+      const double off = std::abs(arc_of(before, p.origin) - before.middle);
+      if (before.edge != p.edge && std::abs(before.along.dot(p.along)) > kParallel && off < 0.5 * std::min(before.take(), p.take()))
+        p.opposite = true;
+    }
+}
+
 /// Where the pleats of one edge close, and which reaches under which.
 void stack(std::vector<LaidPleat>& pleats) {
   for (std::size_t k = 0; k < pleats.size(); ++k) {
@@ -91,11 +106,10 @@ const LaidPleat::Strip* strip_at(const LaidPleat& p, double s) {
   return nullptr;
 }
 
-double arc_of(const LaidPleat& p, const Point2& flat) { return p.middle + (flat - p.origin).dot(p.along); }
-
 /// How far the cloth lies towards the face, in layers; `off` moves the place along the edges, m.
 double layer_at(const std::vector<LaidPleat>& pleats, const Point2& flat, double off) {
   for (const LaidPleat& p : pleats) {
+    if (p.opposite) continue;
     const double s = arc_of(p, flat) + off;
     const LaidPleat::Strip* strip = strip_at(p, s);
     if (strip == nullptr) continue;
@@ -108,7 +122,7 @@ double layer_at(const std::vector<LaidPleat>& pleats, const Point2& flat, double
     int k = -1;
     for (std::size_t j = 0; j < pleats.size(); ++j) {
       const double s = arc_of(pleats[j], flat) + off, beyond = way > 0 ? s - pleats[j].to : pleats[j].from - s;
-      if (pleats[j].ramp == way && beyond >= 0 && beyond < nearest) nearest = beyond, k = static_cast<int>(j);
+      if (!pleats[j].opposite && pleats[j].ramp == way && beyond >= 0 && beyond < nearest) nearest = beyond, k = static_cast<int>(j);
     }
     if (k >= 0) layer -= pleats[k].side * stacked(pleats, k, pleats[k].sewn + way * nearest);
   }
@@ -158,6 +172,7 @@ std::vector<LaidPleat> laid_pleats(const design::Panel& panel) {
       result.push_back(std::move(p));
     }
   }
+  find_opposites(result);
   stack(result);
   return result;
 }
@@ -173,6 +188,7 @@ std::vector<InnerLine> pleat_lines(const design::Panel& panel) {
     // Where it hangs free nothing says where it folds; near the edge it must fold where it starts folded.
     const double folded = pleat.ironed ? 0 : std::max(pleat.length, 2 * pleat.underlay + kFreeFold);
     for (const LaidPleat::Fold& fold : p.folds) {
+      if (p.opposite) break;  // the lines of the other end are its own
       const auto known = std::find_if(wanted.begin(), wanted.end(), [&](const auto& w) { return same_place(w.first, fold.at); });
       if (known == wanted.end()) wanted.emplace_back(fold.at, folded);
       else known->second = folded;
@@ -196,6 +212,7 @@ std::vector<InnerLine> pleat_lines(const design::Panel& panel) {
 Eigen::Vector3d fold_pleats(const std::vector<LaidPleat>& pleats, const Point2& flat, double gap) {
   Eigen::Vector3d at(flat.x(), flat.y(), 0);
   for (const LaidPleat& p : pleats) {
+    if (p.opposite) continue;
     const double s = arc_of(p, flat);
     double moved = s >= p.to ? -p.take() : 0;
     if (const LaidPleat::Strip* strip = strip_at(p, s)) moved = (strip->turned ? strip->shift - s : strip->shift + s) - s;

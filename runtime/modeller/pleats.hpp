@@ -40,6 +40,7 @@ struct LaidPleat {
   int ramp = 0;       ///< side of the stretch (1: beyond `to`, -1: before `from`) whose cloth comes up from under the pleat; 0 of
                       ///< box and inverted pleats, which have none
   int side = 1;       ///< 1: the folds lie at the back, -1: at the face
+  bool opposite = false;  ///< the other end of a pleat on another edge that is listed before: what lies between folds once
   int under = -1;     ///< the pleat that this one reaches under, where they stand close: index into the list; -1: none
   std::vector<Strip> strips;
   std::vector<Fold> folds;
