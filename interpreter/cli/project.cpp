@@ -47,9 +47,13 @@ ExitCode load_pattern(Project& project, const ProjectOptions& options, const std
   interpreter::Interpretation& result = project.result;
   result.origins = interpreter::Origins{};
   result.diagnostics = interpreter::to_diagnostics(pattern.findings, result.origins);
-  if (pattern.garment && options.body.empty())
+  if (pattern.garment && options.body.empty() && options.worn)
     result.diagnostics.push_back(plain_error("G1002", "a specification needs a body to be worn by",
                                              "add --body BODY.obj"));
+  if (pattern.garment && options.body.empty() && !options.worn && !pattern.garment->attachments.empty()) {
+    pattern.garment->attachments.clear();
+    pattern.notes.push_back("without a body it is attached to nothing; add --body BODY.obj");
+  }
   if (pattern.garment && !options.body.empty()) {
     design::Body declared;
     declared.name = pattern_options.body;

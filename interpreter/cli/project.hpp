@@ -17,6 +17,7 @@ struct ProjectOptions {
   std::string file;
   std::vector<std::string> params;     ///< "long=70cm"
   std::string body;                    ///< OBJ file that a specification is worn by
+  bool worn = false;                   ///< a specification without a body is an error; else its attachments are left out
   std::string stdlib_dir;
   std::vector<std::string> library_dirs;  ///< where `use NAME` looks first
   std::optional<interpreter::Study> study;  ///< one round of a `vary`

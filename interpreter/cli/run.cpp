@@ -190,7 +190,9 @@ void summarise(const results::Report& report, const OutputFolder& out, bool drap
 ExitCode run_script(const RunOptions& options, results::Report& report, bool& reported, Host& host, Terminal& terminal) {
   Stopwatch watch(host, report.phases);
   Project project;
-  if (ExitCode code = load(project, options.project, host, terminal); code != kOk) return code;
+  ProjectOptions wanted = options.project;
+  wanted.worn = true;
+  if (ExitCode code = load(project, wanted, host, terminal); code != kOk) return code;
   watch.lap("evaluate");
   // A question before any drape would be answered from the flat start, and pass.
   if (!check_acts(project, false, terminal)) return kDiagnostics;

@@ -425,6 +425,8 @@ spec=$(ls ./*.json 2>/dev/null | head -1)
 if [ -n "$spec" ]; then
   run 1 run "$spec"
   complains "error[G1002]"
+  run 0 model "$spec"
+  run 0 check "$spec"
   run 0 import "$spec" -o imported.garment
   exists imported.garment
   run 3 import "$spec" -o imported.garment
