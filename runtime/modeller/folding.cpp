@@ -16,6 +16,7 @@ using model::Index;
 using model::Vector3d;
 
 constexpr double kLargestFold = 3.05;  // rad; folded flat, cloth turns about its own thickness
+constexpr double kSame = 1e-6;         // m
 constexpr double kFar = 1e3;           // links by which a line goes on beyond what a chart shows of it
 
 double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
@@ -238,8 +239,10 @@ std::vector<FoldChain> fold_chains(const design::Garment& garment, const std::ve
     for (const design::EdgePart& part : press.line) {
       const bool line = part.on == design::EdgePart::On::line;
       if (line && !follows_fold(press, garment.panels[part.panel], part, outlines[part.panel].h)) continue;
+      const double length = design::edge_of(garment.panels[part.panel], part).curve.length();
+      const bool whole_edge = !line && std::abs(part.to - part.from) > length - kSame;  // it goes on into the next edge's seam
       const Pressed pressed(garment, k, part.panel);
-      add_runs(particles_on(part, outlines, borders, panels, model), {{}, angle, !line, turned_over(garment, part)}, pressed, chains);
+      add_runs(particles_on(part, outlines, borders, panels, model), {{}, angle, whole_edge, turned_over(garment, part)}, pressed, chains);
     }
   }
   for (std::size_t p = 0; p < panels.size(); ++p) {

@@ -56,7 +56,7 @@ struct Outline {
   std::vector<Joint> joints;
   double area = 0;  ///< exact: edges by Green's theorem, darts and holes cut away, m^2
   /// On a panel symmetric about its fold: pieces [0, n_half) are the half of larger x from its lower fold
-  /// point up, and piece k mirrors piece n - 1 - k. Zero on all other panels.
+  /// point up, and piece k mirrors piece n - 1 - k. Zero on all other panels, and with holes or inner lines.
   std::size_t n_half = 0;
 
   /// Of loop `l`: its first piece, and the one after its last.
