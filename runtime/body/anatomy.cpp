@@ -1,5 +1,6 @@
 #include "runtime/body/anatomy.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace garment::body {
@@ -100,6 +101,12 @@ double shoulder_height(const TriangleMesh& mesh, const Landmarks& marks) {
 }
 
 }  // namespace
+
+Heights heights_of(const TriangleMesh& mesh) {
+  Heights h;
+  for (const Vector3d& p : mesh.vertices) h.low = std::min(h.low, p.y()), h.high = std::max(h.high, p.y());
+  return h;
+}
 
 std::map<std::string, Part> find_parts(const TriangleMesh& mesh, const Landmarks& marks) {
   std::map<std::string, Part> parts;

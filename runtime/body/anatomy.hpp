@@ -1,12 +1,19 @@
 #pragma once
 // Levels and parts of an upright person, found on the mesh by slicing: feet down, face to +z, arms away from
 // the body (A- or T-pose), any origin. The wearer's left is +x.
+#include <limits>
 #include <optional>
 
 #include "runtime/body/body.hpp"
 #include "runtime/body/slice.hpp"
 
 namespace garment::body {
+
+/// The lowest and the highest y of a mesh, m.
+struct Heights {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+};
+Heights heights_of(const TriangleMesh& mesh);
 
 /// The places that everything else on a person is measured from, m.
 struct Landmarks {

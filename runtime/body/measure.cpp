@@ -8,20 +8,10 @@
 namespace garment::body {
 namespace {
 
-struct Extent {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-};
-
-Extent extent_of(const TriangleMesh& mesh) {
-  Extent e;
-  for (const Vector3d& p : mesh.vertices) e.low = std::min(e.low, p.y()), e.high = std::max(e.high, p.y());
-  return e;
-}
-
 /// The landmarks as far as levels and parts tell them.
 Landmarks known_landmarks(const Body& body) {
   Landmarks marks;
-  Extent e = extent_of(body.mesh);
+  const Heights e = heights_of(body.mesh);
   marks.base = e.low;
   marks.top = e.high;
   marks.stature = e.high - e.low;
@@ -58,7 +48,7 @@ double girth(const Body& body, double y) { return perimeter(hull_section(body, y
 MeasureTable measure(const Body& body) {
   MeasureTable table;
   if (body.mesh.vertices.empty()) return table;
-  Extent e = extent_of(body.mesh);
+  const Heights e = heights_of(body.mesh);
   for (const auto& [name, level] : body.levels) table.push_back({name, level.height - e.low, level.girth});
   if (table.empty()) table.push_back({"whole", 0.5 * (e.high - e.low), girth(body, 0.5 * (e.low + e.high))});
   std::stable_sort(table.begin(), table.end(),

@@ -9,6 +9,7 @@
 
 #include "runtime/base/number.hpp"
 #include "runtime/base/portable_math.hpp"
+#include "runtime/body/anatomy.hpp"
 
 namespace garment::body {
 namespace {
@@ -53,15 +54,6 @@ Matrix3d about_y(double c, double s) {
   Matrix3d turn;
   turn << c / n, 0, s / n, 0, 1, 0, -s / n, 0, c / n;
   return turn;
-}
-
-struct Heights {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-};
-Heights heights_of(const TriangleMesh& mesh) {
-  Heights h;
-  for (const Vector3d& p : mesh.vertices) h.low = std::min(h.low, p.y()), h.high = std::max(h.high, p.y());
-  return h;
 }
 
 /// Rotation about y that lays the line from leg to leg along x; the identity where there are no two legs.

@@ -24,19 +24,6 @@ class Unmodelled {
                          "the script is checked as a whole; to drape it, leave this out for now"});
   }
 
-  /// Says it once for each element of a list whose elements have a name and an origin.
-  template <class List>
-  void say_all(const std::string& kind, const List& list) {
-    for (const auto& thing : list) say(kind + " `" + plain(thing.name) + "`", thing.origin);
-  }
-
-  /// The name without its half.
-  static std::string plain(const std::string& name) {
-    for (const char* half : {"left.", "right."})
-      if (name.starts_with(half)) return name.substr(std::string(half).size());
-    return name;
-  }
-
   Findings take() { return std::move(findings_); }
 
  private:

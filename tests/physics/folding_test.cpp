@@ -8,24 +8,20 @@
 #include "runtime/modeller/pleats.hpp"
 #include "runtime/simulator/certificate.hpp"
 #include "runtime/simulator/elastic.hpp"
+#include "tests/unit/modeller/built.hpp"
 #include "tests/unit/modeller/garments.hpp"
 
 using namespace garment;
 using design::Press;
 using Eigen::Vector3d;
+using test::ironed;
 using test::Point2;
 
 namespace {
 
 using Positions = std::vector<Vector3d>;
 
-model::Model build(const design::Garment& g, std::size_t findings = 0) {
-  modeller::ModelResult result = modeller::build_model(g, {});
-  for (const Finding& f : result.findings) UNSCOPED_INFO(f.code << " " << f.message);
-  CHECK(result.findings.size() == findings);
-  REQUIRE(result.model);
-  return *result.model;
-}
+model::Model build(const design::Garment& g, std::size_t findings = 0) { return test::build(g, findings); }
 
 /// The plane z = 0 folded along the line through `at` with direction `along`: what lies to its left turns to the back.
 Vector3d folded(const Vector3d& p, const Point2& at, const Point2& along, double angle) {
@@ -46,17 +42,6 @@ double energy(const model::Model& m, const Positions& x) {
   simulator::ElasticModel elastic(m);
   elastic.follow(x);
   return elastic.energy(x);
-}
-
-design::Garment ironed(Point2 from, Point2 to, double angle) {
-  design::Garment g = test::single(test::rectangle("cloth", 0.2, 0.3, 0.01));
-  g.panels[0].lines = {test::edge("fold", from, to)};
-  Press press;
-  press.name = "crease";
-  press.line = {{0, 0, 0, (to - from).norm(), design::EdgePart::On::line}};
-  press.angle = angle;
-  g.presses = {press};
-  return g;
 }
 
 double mass_of(const model::Model& m) {

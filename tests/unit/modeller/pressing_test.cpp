@@ -5,34 +5,17 @@
 
 #include "runtime/base/portable_math.hpp"
 #include "runtime/modeller/modeller.hpp"
+#include "tests/unit/modeller/built.hpp"
 #include "tests/unit/modeller/garments.hpp"
 
 using namespace garment;
 using design::Press;
+using test::ironed;
 using test::Point2;
 
 namespace {
 
-/// 20 x 30 cm with a line inside, ironed along it.
-design::Garment ironed(Point2 from, Point2 to, double angle, double radius = 0) {
-  design::Garment g = test::single(test::rectangle("cloth", 0.2, 0.3, 0.01));
-  g.panels[0].lines = {test::edge("fold", from, to)};
-  Press press;
-  press.name = "crease";
-  press.line = {{0, 0, 0, (to - from).norm(), design::EdgePart::On::line}};
-  press.angle = angle;
-  press.radius = radius;
-  g.presses = {press};
-  return g;
-}
-
-model::Model build(const design::Garment& g, std::size_t findings = 0) {
-  modeller::ModelResult result = modeller::build_model(g, {});
-  for (const Finding& f : result.findings) UNSCOPED_INFO(f.code << " " << f.message);
-  CHECK(result.findings.size() == findings);
-  REQUIRE(result.model);
-  return *result.model;
-}
+model::Model build(const design::Garment& g, std::size_t findings = 0) { return test::build(g, findings); }
 
 /// Sum of the folds along each grid line, by the height of the weft lines and the abscissa of the warp lines, in mm.
 std::map<int, double> by_line(const model::Model& m, bool warp) {
