@@ -327,7 +327,7 @@ StepReport Relaxation::step(Vectors& x) {
   report.limited = cut.limited;
   report.out_of_reach = cut.out_of_reach;
   if (!report.accepted) {
-      time_step_ = std::max(kSmallestTimeStep, time_step_ / 4);
+    time_step_ = std::max(kSmallestTimeStep, time_step_ / 4);
     return report;
   }
   report.largest_motion = report.scale * largest(dx_);
