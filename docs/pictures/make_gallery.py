@@ -17,6 +17,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 PAGE = os.path.join(ROOT, "docs", "gallery.md")
 LIMIT = 80_000  # bytes of a picture
 VIEWS = ("front", "side", "back")
+BY_HAND = "\n## The ends of the size tables\n"
 
 HEAD = """# What drapes
 
@@ -105,8 +106,8 @@ def beside(pictures):
     return sum(p[0] for p in pictures), height, rows
 
 
-def make_picture(folder, name, worn):
-    views = [read_png(os.path.join(folder, view + ".png")) for view in (VIEWS if worn else VIEWS[:1])]
+def make_picture(files, name):
+    views = [read_png(file) for file in files]
     path = os.path.join(ROOT, "docs", "pictures", name + ".png")
     for levels in (4, 6, 8, 12, 16):
         if write_png(path, beside([shrink(view, 3, levels) for view in views])) < LIMIT:
@@ -119,7 +120,8 @@ def entry(program, name):
     script = os.path.join(ROOT, "examples", name + ".garment")
     with open(script, encoding="utf-8") as file:
         text = file.read()
-    if not re.search(r"^drape ", text, re.M):
+    study = re.search(r"^vary (\S+) over", text, re.M)
+    if not study and not re.search(r"^drape ", text, re.M):
         return None, "has no drape"
     with tempfile.TemporaryDirectory() as folder:
         command = [program, "run", script, "--library", os.path.join(ROOT, "stdlib"), "-o", folder, "-q"]
@@ -130,25 +132,42 @@ def entry(program, name):
         if done.returncode != 0:
             reason = next((line for line in done.stderr.splitlines() if line.startswith("error")), f"exit {done.returncode}")
             return None, reason
-        with open(os.path.join(folder, "report.json"), encoding="utf-8") as file:
-            report = json.load(file)
-        make_picture(folder, name, bool(re.search(r"^body \w+ = bodies\.", text, re.M)))
+        worn = re.search(r"^body \w+ = bodies\.", text, re.M)
+        views = [os.path.join(folder, view + ".png") for view in (VIEWS if worn else VIEWS[:1])]
+        rounds = [folder]
+        if study:
+            rounds = sorted(os.path.join(folder, f) for f in os.listdir(folder) if f.startswith(study.group(1) + "="))
+            views = [os.path.join(one, "front.png") for one in rounds]
+        make_picture(views, name)
+        facts = [facts_of(one, os.path.basename(one).replace("=", " ") + ": " if study else "") for one in rounds]
+    title = re.search(r'^garment 1 "(.*)"', text, re.M).group(1)
+    lines = len(text.splitlines())
+    said = " ".join(facts) if len(facts) == 1 else "\n\n- " + "\n- ".join(facts)
+    return f"## {title}\n\n![{title}](pictures/{name}.png)\n\n[{name}.garment](../examples/{name}.garment), {lines} lines: {said}\n", ""
+
+
+def facts_of(folder, before):
+    with open(os.path.join(folder, "report.json"), encoding="utf-8") as file:
+        report = json.load(file)
     drape, strain = report["drape"], report["garment"]["strain"]
-    facts = (
+    measures = "".join(f"; {m['name']} {m['shown']}" for m in report["measures"] if "shown" in m)
+    return before + (
         f"{report['particles']:,} particles, {drape['steps']} steps, {report['timings']['seconds']['drape']:.1f} s; strain "
         f"{100 * strain['largest']:.1f} % at most, 99th percentile {100 * strain['p99']:.1f} %; residual "
         f"{drape['residual_over_weight']:.3f} of the weight; {drape['self_intersections']} self-intersections, "
-        f"{drape['body_intersections']} of the body, {drape['inside_body']} corners inside it."
+        f"{drape['body_intersections']} of the body, {drape['inside_body']} corners inside it{measures}."
     )
-    lines = len(text.splitlines())
-    return f"## {report['title']}\n\n![{report['title']}](pictures/{name}.png)\n\n[{name}.garment](../examples/{name}.garment), {lines} lines: {facts}\n", ""
+
+
+def page():
+    if not os.path.exists(PAGE):
+        return ""
+    with open(PAGE, encoding="utf-8") as file:
+        return file.read()
 
 
 def parts_of_page():
-    if not os.path.exists(PAGE):
-        return {}
-    with open(PAGE, encoding="utf-8") as file:
-        parts = file.read().split("\n## ")[1:]
+    parts = page().split("\n## ")[1:]
     return {m.group(1): "## " + p.rstrip() + "\n" for p in parts if (m := re.search(r"\(\.\./examples/(\w+)\.garment\)", p))}
 
 
@@ -158,6 +177,7 @@ def main():
     program, asked = sys.argv[1], sys.argv[2:]
     names = sorted(f[:-8] for f in os.listdir(os.path.join(ROOT, "examples")) if f.endswith(".garment"))
     parts = parts_of_page() if asked else {}
+    by_hand = page().partition(BY_HAND)[1:]  # what is written by hand stays
     for name in asked or names:
         part, reason = entry(program, name)
         print(f"{name}: {'at rest' if part else 'left out, ' + reason}", flush=True)
@@ -165,8 +185,8 @@ def main():
             parts[name] = part
         else:
             parts.pop(name, None)
-    with open(PAGE, "w", encoding="utf-8") as file:
-        file.write(HEAD + "".join("\n" + parts[name] for name in names if name in parts))
+        with open(PAGE, "w", encoding="utf-8") as file:
+            file.write(HEAD + "".join("\n" + parts[one] for one in names if one in parts) + "".join(by_hand))
 
 
 main()
