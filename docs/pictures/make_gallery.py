@@ -106,11 +106,20 @@ def beside(pictures):
     return sum(p[0] for p in pictures), height, rows
 
 
-def make_picture(files, name):
+def cut(picture, left, top, right, bottom):
+    width, height, rows = picture
+    x0, x1, y0, y1 = int(left * width), int(right * width), int(top * height), int(bottom * height)
+    return x1 - x0, y1 - y0, [row[3 * x0 : 3 * x1] for row in rows[y0:y1]]
+
+
+def make_picture(files, name, by):
+    """The views beside each other; those of a study cut to what is looked at, by half the size instead of a third."""
     views = [read_png(file) for file in files]
+    if by == 2:
+        views = [cut(view, 0.16, 0.08, 0.84, 0.6) for view in views]
     path = os.path.join(ROOT, "docs", "pictures", name + ".png")
     for levels in (4, 6, 8, 12, 16):
-        if write_png(path, beside([shrink(view, 3, levels) for view in views])) < LIMIT:
+        if write_png(path, beside([shrink(view, by, levels) for view in views])) < LIMIT:
             return
     raise SystemExit(f"{path} is larger than {LIMIT} bytes")
 
@@ -138,12 +147,12 @@ def entry(program, name):
         if study:
             rounds = sorted(os.path.join(folder, f) for f in os.listdir(folder) if f.startswith(study.group(1) + "="))
             views = [os.path.join(one, "front.png") for one in rounds]
-        make_picture(views, name)
+        make_picture(views, name, 2 if study else 3)
         facts = [facts_of(one, os.path.basename(one).replace("=", " ") + ": " if study else "") for one in rounds]
     title = re.search(r'^garment 1 "(.*)"', text, re.M).group(1)
     lines = len(text.splitlines())
-    said = " ".join(facts) if len(facts) == 1 else "\n\n- " + "\n- ".join(facts)
-    return f"## {title}\n\n![{title}](pictures/{name}.png)\n\n[{name}.garment](../examples/{name}.garment), {lines} lines: {said}\n", ""
+    said = " " + facts[0] if len(facts) == 1 else "\n\n- " + "\n- ".join(facts)
+    return f"## {title}\n\n![{title}](pictures/{name}.png)\n\n[{name}.garment](../examples/{name}.garment), {lines} lines:{said}\n", ""
 
 
 def facts_of(folder, before):
