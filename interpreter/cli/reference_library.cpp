@@ -84,7 +84,7 @@ std::string places_of_a_person(const std::string& folder, Host& host) {
 
 std::string library_chapter(const std::string& folder, Host& host) {
   std::string text = "## The standard library\n\nNames of a library are written with it, after `use`: `fabrics.denim`.\n\n";
-  for (const char* library : std::array{"fabrics", "bodies", "blocks", "modifiers"}) {
+  for (const char* library : std::array{"fabrics", "bodies", "blocks", "skirts", "sleeves", "collars", "details", "modifiers"}) {
     const HostResult<std::string> file = host.read_file(folder + '/' + library + ".garment", kMostBytes);
     if (!file) continue;
     grammar::Sources sources;

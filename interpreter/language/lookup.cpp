@@ -110,7 +110,7 @@ std::string place_of_a_body(const Program& program, const std::string& name) {
 
 /// What an unknown name is elsewhere, or a unit it was meant for.
 std::string known_elsewhere(const Program& program, const std::string& name) {
-  for (const char* library : {"fabrics", "bodies", "blocks", "modifiers"})
+  for (const char* library : {"fabrics", "bodies", "blocks", "skirts", "sleeves", "collars", "details", "modifiers"})
     if (name == library) return "write `use " + name + "` at the top";
   for (const std::string& found : {place_of_a_body(program, name), thing_of_a_panel(program, name)})
     if (!found.empty()) return "did you mean `" + found + "`?";

@@ -36,6 +36,11 @@ const std::vector<LibraryName>& library_names() {
       {"fabrics", "measured cloth: `fabrics.denim`"},
       {"bodies", "persons by size: `bodies.woman(size: 40)`"},
       {"blocks", "skirt, tee and other blocks as components: `part front = blocks.skirt(...)`"},
+      {"skirts", "flared and gathered skirts: `part lower = skirts.flared(...)`"},
+      {"sleeves", "sleeves of one and two pieces, cuffs: `part arms = sleeves.one_piece(...)`"},
+      {"collars", "collars and hoods: `part collar = collars.shirt_collar(...)`"},
+      {"details", "bands, pockets, rows of buttons: `part waistband = details.band(...)`"},
+      {"modifiers", "changes of a part: `part longer = modifiers.lengthen_body(top, by: 5 cm)`"},
   };
   return names;
 }
