@@ -13,7 +13,9 @@ using Vectors = std::vector<Vector3d>;
 
 constexpr int kMostIterations = 30;
 constexpr int kHalvings = 8;
-constexpr double kLinearTolerance = 1e-3;
+constexpr double kLinearTolerance = 0.03;
+constexpr double kManyFresh = 0.1;    // share of what touches that does so for the first time
+constexpr int kEulerSteps = 10;       // after one in which something came to touch: more will, and BDF2 would be tried in vain
 constexpr int kLinearIterations = 300;
 constexpr double kRounding = 1e-11;   // share of the energy that sums of it may be off
 constexpr double kGoodEnough = 10;    // times the tolerance, where the iterations come to a stand
@@ -128,7 +130,7 @@ void ImplicitSteps::finish(MotionState& s, double h, TimeStep& report) {
 }
 
 TimeStep ImplicitSteps::step(MotionState& state, double h) {
-  const bool goes_on = !state.x_before.empty() && std::abs(state.step_before - h) < 1e-9 * h;
+  const bool goes_on = euler_steps_ == 0 && !state.x_before.empty() && std::abs(state.step_before - h) < 1e-9 * h;
   for (Scheme scheme : {Scheme::bdf2, Scheme::euler}) {
     if (scheme == Scheme::bdf2 && !goes_on) continue;
     TimeStep report;
@@ -136,8 +138,16 @@ TimeStep ImplicitSteps::step(MotionState& state, double h) {
     cloth_.begin_step(state.x);
     set_scheme(state, h, scheme);
     guess(state, h);
-    const bool solved = solve(state, h, report);
-    if (solved && (scheme == Scheme::euler || !cloth_.has_new_contacts(x_))) {
+    bool solved = solve(state, h, report);
+    const double fresh = solved ? cloth_.new_contacts(x_) : 0;
+    const bool touches = fresh > 0;
+    if (touches) euler_steps_ = kEulerSteps;
+    if (fresh > kManyFresh && scheme == Scheme::euler) {  // what lands rubs from its first step on
+      cloth_.rub(x_, state.x);
+      solved = solve(state, h, report);
+    }
+    if (solved && (scheme == Scheme::euler || !touches)) {
+      euler_steps_ = std::max(0, euler_steps_ - 1);
       finish(state, h, report);
       return report;
     }

@@ -31,6 +31,7 @@ class ImplicitSteps {
   MovingCloth& cloth_;
   double tolerance_;
   Scheme scheme_ = Scheme::euler;
+  int euler_steps_ = 0;  // still to come
   double beta_ = 0;
   Energies energies_;
   std::vector<Eigen::Vector3d> x_, aim_, v_, residual_, dx_, trial_;

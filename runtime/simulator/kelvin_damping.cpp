@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "runtime/base/parallel.hpp"
 #include "runtime/simulator/elastic_kernels.hpp"
@@ -10,7 +11,10 @@
 namespace garment::simulator {
 namespace {
 
-constexpr double kNoDirection = 1e-9;  // length of a kink, twist or curvature that has none
+// Lengths of kinks, twists and curvatures are rounded off near zero, where they have no direction: |d| = sqrt(d . d + least^2).
+constexpr double kLeastKink = 1e-3;       // rad
+constexpr double kLeastTwist = 1e-5;      // m
+constexpr double kLeastCurvature = 0.1;   // 1/m
 enum : int { kBegin, kPotential, kForce, kHessian };
 
 }  // namespace
@@ -49,12 +53,10 @@ class KelvinDamping::Pass {
       for (int c = 0; c < 3; ++c) b[place.transposed() ? 3 * r + c : 3 * c + r] += static_cast<float>(block(r, c));
   }
 
-  /// One strain s of a stencil of N particles with the gradients `g`; `stiffness` and tau matter when a step begins. `exact`:
-  /// its curvature goes to the blocks, not to the bound of all fits and twists.
+  /// One strain s of a stencil of N particles with the gradients `g`; `stiffness` and tau matter when a step begins.
   template <std::size_t N, std::size_t P>
   double strain(std::vector<Dashpot> KelvinDamping::*list, std::size_t slot, const Indices<N>& particle,
-                const std::array<BlockPlace, P>& place, double s, const std::array<Vector3d, N>& g, double stiffness,
-                bool exact = true) const {
+                const std::array<BlockPlace, P>& place, double s, const std::array<Vector3d, N>& g, double stiffness) const {
     if constexpr (kWanted == kBegin) {
       (out_->*list)[slot] = {s, tau(particle) * std::max(stiffness, 0.0)};
       return 0;
@@ -65,7 +67,7 @@ class KelvinDamping::Pass {
         for (std::size_t a = 0; a < N; ++a) force_[particle[a]] -= (c * change) * g[a];
       if constexpr (kWanted == kHessian) {
         std::size_t at = 0;
-        for (std::size_t a = 0; exact && a < N; ++a)
+        for (std::size_t a = 0; a < N; ++a)
           for (std::size_t b = a + 1; b < N; ++b) add(place[at++], (c * g[a]) * g[b].transpose());
       }
       return 0.5 * c * change * change;
@@ -90,8 +92,8 @@ class KelvinDamping::Pass {
     const Direction a(x1 - x0), b(x2 - x3), c(x3 - x0), d(x2 - x1);
     const TrellisAngle ac(a, c), ad(a, d), bd(b, d), bc(b, c);
     using Gradients = std::array<Vector3d, 4>;
-    auto one = [&](std::size_t q, double value, const Gradients& g, double stiffness, bool exact = true) {
-      return strain(&KelvinDamping::cells_, 5 * k + q, p, s.place, value, g, stiffness, exact);
+    auto one = [&](std::size_t q, double value, const Gradients& g, double stiffness) {
+      return strain(&KelvinDamping::cells_, 5 * k + q, p, s.place, value, g, stiffness);
     };
     double sum = one(0, ac.phi, Gradients{-ac.grad_a - ac.grad_b, ac.grad_a, zero, ac.grad_b}, s.corner_shear);
     sum += one(1, ad.phi, Gradients{-ad.grad_a, ad.grad_a - ad.grad_b, ad.grad_b, zero}, s.corner_shear);
@@ -99,9 +101,9 @@ class KelvinDamping::Pass {
     sum += one(3, bc.phi, Gradients{-bc.grad_b, zero, bc.grad_a, bc.grad_b - bc.grad_a}, s.corner_shear);
     Vector3d twist = (x2 - x3) - (x1 - x0);
     if (s.twisted >= 0) twist -= s_.twisted[s.twisted].now;
-    const double size = twist.norm();
-    const Vector3d t = size > kNoDirection * kNoDirection ? Vector3d(twist / size) : zero;
-    return sum + one(4, size, Gradients{t, -t, t, -t}, s.twist, false);
+    const double size = std::sqrt(twist.squaredNorm() + kLeastTwist * kLeastTwist);
+    const Vector3d t = twist / size;
+    return sum + one(4, size, Gradients{t, -t, t, -t}, s.twist);
   }
 
   double membrane(std::size_t k) const {
@@ -137,8 +139,8 @@ class KelvinDamping::Pass {
     const Direction out(at(s.particle[2]) - middle);
     if (s.crease >= 0) in.unit = s_.creases[s.crease].turn * in.unit;
     const Vector3d kink = out.unit - in.unit;
-    const double size = kink.norm();
-    const Vector3d n = size > kNoDirection ? Vector3d(kink / size) : Vector3d(Vector3d::Zero());
+    const double size = std::sqrt(kink.squaredNorm() + kLeastKink * kLeastKink);
+    const Vector3d n = kink / size;
     Vector3d g_in = -(n - n.dot(in.unit) * in.unit) * in.inverse_length;
     const Vector3d g_out = (n - n.dot(out.unit) * out.unit) * out.inverse_length;
     if (s.crease >= 0) g_in = s_.creases[s.crease].turn.transpose() * g_in;
@@ -158,14 +160,16 @@ class KelvinDamping::Pass {
       curvature += (at(s_.fit_particle[j]) - origin) * s_.fit_weight[j].transpose();
     double sum = 0;
     for (int q = 0; q < 3; ++q) {
-      const double size = curvature.col(q).norm();
+      const double size = std::sqrt(curvature.col(q).squaredNorm() + kLeastCurvature * kLeastCurvature);
       if constexpr (kWanted == kBegin) {
         out_->fits_[3 * k + q] = {size, d_.tau_[s_.fit_particle[s.begin]] * std::max(s.rigidity(q, q), 0.0)};
       } else {
         const Dashpot& dashpot = d_.fits_[3 * k + q];
         const double c = dashpot.eta * inverse_step_, change = size - dashpot.s;
         sum += 0.5 * c * change * change;
-        if (kWanted >= kForce && size > kNoDirection) push_fit(s, q, curvature.col(q) * (c * change / size));
+        const Vector3d n = curvature.col(q) / size;
+        if constexpr (kWanted >= kForce) push_fit(s, q, (c * change) * n);
+        if constexpr (kWanted == kHessian) stiffen_fit(s, d_.fit_places_[k], q, (c * n) * n.transpose());
       }
     }
     return sum;
@@ -178,6 +182,13 @@ class KelvinDamping::Pass {
       sum += f;
     }
     force_[s_.fit_particle[s.begin]] += sum;
+  }
+
+  /// n nT w_a w_b for every pair of the fit's particles.
+  void stiffen_fit(const FitStencil& s, std::size_t place, int q, const Matrix3d& curvature) const {
+    for (std::size_t a = s.begin; a < s.end; ++a)
+      for (std::size_t b = a + 1; b < s.end; ++b)
+        add({d_.pair_places_[place++]}, (s_.fit_weight[a][q] * s_.fit_weight[b][q]) * curvature);
   }
 
   const KelvinDamping& d_;
@@ -199,6 +210,14 @@ KelvinDamping::KelvinDamping(const model::Model& model, const ElasticModel& elas
   membranes_.resize(3 * stencils_.membranes.size());
   bends_.resize(stencils_.bends.size());
   fits_.resize(3 * stencils_.fits.size());
+  for (const FitStencil& s : stencils_.fits) {
+    fit_places_.push_back(pair_places_.size());
+    for (std::size_t a = s.begin; a < s.end; ++a)
+      for (std::size_t b = a + 1; b < s.end; ++b) {
+        const Index i = stencils_.fit_particle[a], j = stencils_.fit_particle[b];
+        pair_places_.push_back(i == j ? -1 : 2 * stencils_.pattern->find(std::min(i, j), std::max(i, j)) + (i > j ? 1 : 0));
+      }
+  }
 }
 
 /// Chunks of one colour share no particle; energies are added in the order of the chunks.
@@ -230,14 +249,6 @@ double KelvinDamping::add_force_hessian(const std::vector<Vector3d>& x, double h
                                         BlockMatrix& hessian) const {
   if (idle_) return 0;
   const double sum = run(Pass<kHessian>(*this, x.data(), h, force.data(), &hessian, nullptr));
-  for (std::size_t i = 0; i < stencils_.n_particles; ++i)
-    for (Index k = stencils_.upper_begin[i]; k < stencils_.pattern->row_begin[i + 1]; ++k) {
-      const auto c = static_cast<float>(largest_ / h * stencils_.constant[k]);
-      float* b = hessian.raw_block(static_cast<std::size_t>(k));
-      b[0] += c;
-      b[4] += c;
-      b[8] += c;
-    }
   hessian.finish_assembly();
   return sum;
 }

@@ -11,7 +11,7 @@ namespace garment::simulator {
 /// length of the twist vector, of the kink of bends, of the curvature vectors of fits. Over a step of h seconds each has the
 /// potential
 ///     D = tau k (s - s0)^2 / (2 h),      force -tau k (s - s0) / h grad s,
-/// s0 and k = d2E/ds2 being those of the step's begin. The strains do not change when the cloth moves as a rigid body, so
+/// (lengths rounded off near zero), s0 and k = d2E/ds2 being those of the step's begin. The strains do not change when the cloth moves as a rigid body, so
 /// that forces and torques sum to zero and nothing brakes a free fall. The heat of a step is 2 D. Ties have no dashpots.
 ///
 /// All functions give the same bits for any number of threads.
@@ -29,7 +29,7 @@ class KelvinDamping {
   double potential(const std::vector<Eigen::Vector3d>& x, double h) const;
   /// Adds the forces at x, N; returns D.
   double add_force(const std::vector<Eigen::Vector3d>& x, double h, std::vector<Eigen::Vector3d>& force) const;
-  /// The same, and the curvature tau k / h grad s grad sT (of twist and fits an upper bound) to a matrix that
+  /// The same, and the curvature tau k / h grad s grad sT to a matrix that
   /// `elastic.energy_force_hessian` has just filled.
   double add_force_hessian(const std::vector<Eigen::Vector3d>& x, double h, std::vector<Eigen::Vector3d>& force,
                            BlockMatrix& hessian) const;
@@ -47,6 +47,8 @@ class KelvinDamping {
   bool idle_ = true;
   double largest_ = 0;
   std::vector<double> tau_;  // s [n_particles]
+  std::vector<std::size_t> fit_places_;  // of each fit's first pair
+  std::vector<std::int32_t> pair_places_;  // BlockPlace codes of all pairs of a fit's particles
   std::vector<Dashpot> springs_, cells_, membranes_, bends_, fits_;  // 1, 5, 3, 1, 3 of each stencil
 };
 

@@ -139,7 +139,7 @@ class Mover {
 
   double next_step(double stop) const {
     double most = std::ldexp(step_, -halvings_);
-    const double speed = cloth_.body_speed(s_.time, s_.time + most);
+    const double speed = cloth_.body_speed(s_.x, s_.time, s_.time + most);
     if (speed > 0) most = std::min(most, kBodyStride / speed);
     const double left = stop - s_.time;
     return left / std::max(1.0, std::ceil(left / most - 1e-6));

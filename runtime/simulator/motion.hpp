@@ -18,7 +18,7 @@ struct MotionSettings {
   double duration = 1;     ///< s
   MotionMethod method = MotionMethod::implicit;
   double step = 0;         ///< s; 0: chosen by the method
-  double tolerance = 1e-3; ///< of an implicit step: RMS of what is left of the equations over RMS weight
+  double tolerance = 5e-3; ///< of an implicit step: RMS of what is left of the equations over RMS weight
   bool self_collision = true;
   int max_steps = 10'000'000;
   std::function<void(const DrapeProgress&)> progress;  ///< called between steps; may be empty

@@ -19,6 +19,7 @@ constexpr double kContactStiffness = 200;     // N/m
 constexpr double kFrictionGive = 1e-5;        // m, by which what sticks gives way: cloth in motion feels its springs
 constexpr double kHoldSpeed = 1;              // m/s, of what is not yet where its hold is
 constexpr double kLeastRoom = 2e-3;           // m, that a particle may go in one iteration however near a body is
+constexpr double kNear = 0.05;                // m round the cloth, where the speed of bodies counts
 constexpr double kHardening = 20;             // of PushLaw
 
 const std::vector<body::Body>& no_bodies() {
@@ -72,6 +73,10 @@ MovingCloth::MovingCloth(const model::Model& model, const std::vector<body::Body
   rms_weight_ = std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, model.n_particles())));
   go_to(time);
   last_placements_ = placements_;
+  for (const body::Body& body : bodies)
+    for (const auto& t : body.mesh.triangles)
+      for (int k = 0; k < 3; ++k)
+        fine_bodies_ = fine_bodies_ && (body.mesh.vertices[t[k]] - body.mesh.vertices[t[(k + 1) % 3]]).norm() < kNear;
 }
 
 void MovingCloth::go_to(double time) {
@@ -247,19 +252,28 @@ void MovingCloth::held_motion(const Vectors& x, double h, Vectors& dx) const {
   }
 }
 
-bool MovingCloth::has_new_contacts(const Vectors& x) {
+double MovingCloth::new_contacts(const Vectors& x) {
   bodies_.pressed(x, touched_);
   for (const Contact& c : contacts_)
     for (Index p : c.p)
       if (p >= 0 && p < mesh_.n_particles) touched_[p] = 1;
-  for (std::size_t i = 0; i < touched_.size(); ++i)
-    if (touched_[i] && !touching_[i]) return true;
-  return false;
+  double fresh = 0, all = 0;
+  for (std::size_t i = 0; i < touched_.size(); ++i) {
+    all += touched_[i];
+    fresh += touched_[i] && !touching_[i] ? 1 : 0;
+  }
+  return all > 0 ? fresh / all : 0;
+}
+
+void MovingCloth::rub(const Vectors& x, const Vectors& x0) {
+  friction_.begin_step();
+  bodies_.add_normal_forces(x, friction_);
+  friction_.freeze(x0);
 }
 
 MovingCloth::Accepted MovingCloth::accept(const Vectors& x) {
   Accepted out;
-  has_new_contacts(x);
+  new_contacts(x);
   touching_ = touched_;
   if (constrained_ && !placements_.empty()) out.work_of_bodies = bodies_.work_of_motion(last_placements_, x, friction_);
   if (constrained_) out.friction_heat = friction_.follow(x) + cloth_friction_.follow(x);
@@ -269,13 +283,24 @@ MovingCloth::Accepted MovingCloth::accept(const Vectors& x) {
   return out;
 }
 
-double MovingCloth::body_speed(double from, double to) const {
+double MovingCloth::body_speed(const Vectors& x, double from, double to) const {
   double most = 0;
+  if (start_.motions.empty()) return 0;
+  Vector3d low = Vector3d::Constant(1e300), high = -low;
+  for (const Vector3d& p : x) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  low.array() -= kNear;
+  high.array() += kNear;
   for (const model::Motion& m : start_.motions) {
     if (m.body < 0 || static_cast<std::size_t>(m.body) >= bodies_given_.size() || !(to > from)) continue;
     const model::Placement a = model::placement_at(m, from), b = model::placement_at(m, to);
-    for (const Vector3d& v : bodies_given_[static_cast<std::size_t>(m.body)].mesh.vertices)
-      most = std::max(most, (b.apply(v) - a.apply(v)).norm() / (to - from));
+    for (const Vector3d& v : bodies_given_[static_cast<std::size_t>(m.body)].mesh.vertices) {
+      const Vector3d at = a.apply(v), way = b.apply(v) - at;
+      const bool near = (at.array() > low.array()).all() && (at.array() < high.array()).all();
+      if (near || !fine_bodies_) most = std::max(most, way.norm() / (to - from));
+    }
   }
   return most;
 }

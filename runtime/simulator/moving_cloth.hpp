@@ -82,16 +82,18 @@ class MovingCloth {
   /// Velocity of a body at x, m/s, in a step of h seconds.
   Eigen::Vector3d body_velocity(const Push& push, const Eigen::Vector3d& x, double h) const;
 
-  /// True where a particle touches now that did not after the last accepted step.
-  bool has_new_contacts(const std::vector<Eigen::Vector3d>& x);
+  /// Share of the particles that touch now which did not after the last accepted step.
+  double new_contacts(const std::vector<Eigen::Vector3d>& x);
+  /// Lets what touches a body at x rub already in this step, which began at x0.
+  void rub(const std::vector<Eigen::Vector3d>& x, const std::vector<Eigen::Vector3d>& x0);
   /// Lets slipped friction go; what the step from `before` to x cost, beside the dashpots.
   struct Accepted {
     double friction_heat = 0, work_of_bodies = 0;  ///< J
   };
   Accepted accept(const std::vector<Eigen::Vector3d>& x);
 
-  /// Speed of the fastest body between two times, m/s (0: none moves).
-  double body_speed(double from, double to) const;
+  /// Speed of the fastest part of a body near the cloth at x, between two times, m/s (0: none moves).
+  double body_speed(const std::vector<Eigen::Vector3d>& x, double from, double to) const;
   /// Bound on the stiffness that contacts may add to one particle, N/m.
   double largest_contact_stiffness() const;
 
@@ -105,6 +107,7 @@ class MovingCloth {
   const model::Model& start_;
   const std::vector<body::Body>& bodies_given_;
   bool constrained_;                         // by what acts here
+  bool fine_bodies_ = true;                  // all facets are small: corners tell where a surface is
   model::Model moved_;                       // holds where they are now
   std::vector<Eigen::Vector3d> last_holds_;  // their points at the last accepted step
   ElasticModel elastic_;

@@ -375,11 +375,11 @@ ok
 grep -q 'G1225\|G0439\|G0452' err.txt && fail "names of a library count as unused"
 ok
 # Many things that cannot be modelled yet are one warning to a person, each its own to a program.
-{ cat square.garment | sed '/^drape/,$d'; printf 'wind (2 m/s, 0 m/s, 0 m/s)\nforce pull on cloth at (5 cm, 5 cm) of (0 N, 1 N, 0 N)\npressure puff on cloth of 10 Pa\npressure blow on cloth of 5 Pa\ndrape until rest\n'; } >airy.garment
-run 0 check airy.garment
+{ cat square.garment | sed '/^drape/,$d'; for k in one two three four; do echo "pad $k on cloth at (5 cm, 5 cm) radius 2 cm thickness 5 mm side face"; done; echo 'drape until rest'; } >padded_face.garment
+run 0 check padded_face.garment
 [ "$(grep -c G0460 err.txt)" -eq 1 ] || fail "what cannot be modelled is told more than once"
 ok
-run 0 check airy.garment --json
+run 0 check padded_face.garment --json
 [ "$(grep -c '"G0460"' out.txt)" -ge 4 ] || fail "what cannot be modelled is drawn together in JSON too"
 ok
 run 0 check "$2/examples/lined_skirt.garment"

@@ -310,6 +310,7 @@ TEST_CASE("moved: a sheet that falls in air comes to its final speed") {
   model::Model m = test::make_sheet(spec);
   m.air.drag = 1.2;
   const Moved moved = move(m, lasting(2, 1.0 / 240));
+  INFO("residual " << moved.report.residual << " at " << moved.state.time << " s");
   REQUIRE(moved.report.status == simulator::DrapeStatus::ran);
   CHECK(-mean(moved.state.velocity).y() == Approx(std::sqrt(spec.density * kGravity / (0.5 * 1.204 * 1.2))).epsilon(0.01));
 }
@@ -357,6 +358,13 @@ TEST_CASE("moved: what cannot move says why, and the last good state is kept") {
   CHECK(stuck.report.findings[0].code == "G0807");
   for (const Vector3d& p : stuck.state.position) CHECK(p.allFinite());
   const model::Model m = test::make_sheet(spec);
+  model::Model under = m;  // held below the ground
+  for (Vector3d& p : under.start) p.y() -= 0.02;
+  for (int j = 0; j < spec.ny; ++j) hold_row(under, spec, j);
+  const Moved cut = move(under, lasting(0.01, 0), {floor_of(0.3)});
+  CHECK(cut.report.status == simulator::DrapeStatus::ran);
+  REQUIRE(cut.report.findings.size() == 1);
+  CHECK(cut.report.findings[0].code == "G0808");
   simulator::MotionSettings s = lasting(1, 1.0 / 240);
   int asked = 0;
   s.interrupted = [&] { return ++asked > 10; };
