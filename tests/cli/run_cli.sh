@@ -375,7 +375,7 @@ ok
 grep -q 'G1225\|G0439\|G0452' err.txt && fail "names of a library count as unused"
 ok
 # Many things that cannot be modelled yet are one warning to a person, each its own to a program.
-{ cat square.garment | sed '/^drape/,$d'; for k in one two three four; do echo "pad $k on cloth at (5 cm, 5 cm) radius 2 cm thickness 5 mm side face"; done; echo 'drape until rest'; } >padded_face.garment
+{ cat square.garment | sed '/^drape/,$d'; for k in p1 p2 p3 p4; do echo "pad $k on cloth at (5 cm, 5 cm) radius 2 cm thickness 5 mm side face"; done; echo 'drape until rest'; } >padded_face.garment
 run 0 check padded_face.garment
 [ "$(grep -c G0460 err.txt)" -eq 1 ] || fail "what cannot be modelled is told more than once"
 ok

@@ -75,7 +75,7 @@ const std::map<std::string, std::string> kElsewhere = {
     // Drawings in SVG.
     {"G0971", "unit/io"}, {"G0972", "unit/io"}, {"G0973", "unit/io"}, {"G0974", "unit/io"},
     // Files beside the prompt; what an editor asks.
-    {"G1504", "unit/session"}, {"G1507", "unit/session"}, {"G1508", "unit/session"}, {"G1560", "unit/service"},
+    {"G1325", "unit/session"}, {"G1504", "unit/session"}, {"G1507", "unit/session"}, {"G1508", "unit/session"}, {"G1560", "unit/service"},
     {"G1561", "unit/service"}, {"G1562", "unit/service"},
 };
 
