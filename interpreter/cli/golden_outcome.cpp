@@ -47,7 +47,7 @@ class GoldenRun {
   void perform() {
     for (const interpreter::Act& act : script_.acts) {
       if (has_error(outcome_.diagnostics) || host_.interrupted()) return;
-      if (const auto* drape = std::get_if<interpreter::DrapeAct>(&act.act)) this->drape(*drape);
+      if (const auto* drape = std::get_if<interpreter::DrapeAct>(&act.act)) this->drape(*drape, act.span);
       if (const auto* record = std::get_if<interpreter::RecordAct>(&act.act)) recorder_.add(*record);
       const bool asks = std::holds_alternative<interpreter::ExpectAct>(act.act) ||
                         std::holds_alternative<interpreter::MeasureAct>(act.act);
@@ -65,7 +65,7 @@ class GoldenRun {
     outcome_.diagnostics.push_back(std::move(d));
   }
 
-  void drape(const interpreter::DrapeAct& act) {
+  void drape(const interpreter::DrapeAct& act, grammar::Span span) {
     session::DrapeScene scene{script_, bodies_, model_, draped_, {}, &recorder_};
     scene.settings.interrupted = [this] { return host_.interrupted(); };
     const double begun = host_.seconds();
@@ -74,7 +74,7 @@ class GoldenRun {
     add(outcome_.diagnostics, recorder_.take_diagnostics());
     outcome_.drape_seconds += host_.seconds() - begun;
     draped_ = true;
-    add(outcome_.diagnostics, interpreter::to_diagnostics(report_.findings, script_.origins));
+    add(outcome_.diagnostics, session::told_by(report_, script_, span));
     outcome_.text += fmt::format("drape: {}\n", results::status_name(report_.status));
   }
 

@@ -75,7 +75,7 @@ struct Run {
   bool draped = false;
   ExitCode code = kOk;
 
-  void drape(const interpreter::DrapeAct& act) {
+  void drape(const interpreter::DrapeAct& act, grammar::Span span) {
     session::DrapeScene scene{project.result, bodies, model, draped, {}, &recorder};
     if (options.max_steps > 0) scene.settings.max_steps = options.max_steps;
     scene.settings.progress = [this](const simulator::DrapeProgress& p) { terminal.progress(p, host); };
@@ -89,7 +89,7 @@ struct Run {
       show(told, project.sources, terminal);
       code = kDiagnostics;
     }
-    show(interpreter::to_diagnostics(report.drape.findings, project.result.origins), project.sources, terminal);
+    show(session::told_by(report.drape, project.result, span), project.sources, terminal);
     code = std::max(code, exit_code_of(report.drape.status));
   }
 
@@ -137,7 +137,7 @@ struct Run {
 void perform(Run& run) {
   for (const interpreter::Act& act : run.project.result.acts) {
     if (run.code == kInterrupted || run.code == kSimulationFailed || run.code == kDiagnostics) break;
-    if (auto* drape = std::get_if<interpreter::DrapeAct>(&act.act)) run.drape(*drape);
+    if (auto* drape = std::get_if<interpreter::DrapeAct>(&act.act)) run.drape(*drape, act.span);
     if (std::holds_alternative<interpreter::ExpectAct>(act.act)) run.expect(act);
     if (std::holds_alternative<interpreter::MeasureAct>(act.act)) run.measure(act);
     if (auto* release = std::get_if<interpreter::ReleaseAct>(&act.act)) run.release(*release);
@@ -153,10 +153,11 @@ void perform(Run& run) {
 void summarise_motion(const simulator::DrapeReport& drape, double taken, Terminal& terminal) {
   const simulator::MotionReport& m = drape.motion;
   auto joule = [](double x) { return format_number(x, 3) + " J"; };
-  terminal.note(fmt::format("{}: {} s in {} steps of {} to {} ms, {}, {} intersections", results::status_name(drape.status),
-                            format_number(m.seconds, 4), m.steps, format_number(1000 * m.least_step, 3),
-                            format_number(1000 * m.largest_step, 3), say_seconds(taken),
-                            drape.self_intersections + drape.body_intersections + drape.inside_body));
+  const std::string steps = m.steps == 0 ? fmt::format("{} steps, at rest at every moment", drape.steps)
+                                         : fmt::format("{} steps of {} to {} ms", m.steps, format_number(1000 * m.least_step, 3),
+                                                       format_number(1000 * m.largest_step, 3));
+  terminal.note(fmt::format("{}: {} s in {}, {}, {} intersections", results::status_name(drape.status), format_number(m.seconds, 4),
+                            steps, say_seconds(taken), drape.self_intersections + drape.body_intersections + drape.inside_body));
   if (m.stable_step > 0) terminal.note(fmt::format("       explicit steps are stable up to {} ms", format_number(1000 * m.stable_step, 3)));
   if (m.steps > 0)
     terminal.note(fmt::format("       energy: kinetic {}, stored {}; work {}, damping {}, friction {}, lost to the steps {}",

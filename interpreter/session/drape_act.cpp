@@ -57,4 +57,11 @@ simulator::DrapeReport perform_drape(const interpreter::DrapeAct& act, const Dra
   return to_rest(scene, settings, state);
 }
 
+grammar::Diagnostics told_by(const simulator::DrapeReport& report, const interpreter::Interpretation& script, grammar::Span act) {
+  grammar::Diagnostics told = interpreter::to_diagnostics(report.findings, script.origins);
+  for (grammar::Diagnostic& d : told)
+    if (d.labels.empty()) d.labels.push_back({act, ""});
+  return told;
+}
+
 }  // namespace garment::session

@@ -22,4 +22,7 @@ struct DrapeScene {
 /// Drapes `state`. To rest, moving clamps and bodies stand where they are at the state's time.
 simulator::DrapeReport perform_drape(const interpreter::DrapeAct& act, const DrapeScene& scene, model::State& state);
 
+/// What the drape found, as diagnostics; what has no place of its own stands at the act's.
+grammar::Diagnostics told_by(const simulator::DrapeReport& report, const interpreter::Interpretation& script, grammar::Span act);
+
 }  // namespace garment::session

@@ -170,7 +170,7 @@ Answer Session::move_now(Evaluated& evaluated, const interpreter::DrapeAct& act)
   answer.text = shown(interpreter::to_diagnostics(next.shape.report.findings, evaluated.result.origins), evaluated.sources,
                       Severity::warning);
   answer.text += fmt::format("{}: {} s in {} steps{}\n", results::status_name(next.shape.report.status),
-                             format_number(next.shape.report.motion.seconds, 4), next.shape.report.motion.steps,
+                             format_number(next.shape.report.motion.seconds, 4), next.shape.report.steps,
                              seconds_since(begun));
   answer.outcome = outcome_of(next.shape.report.status);
   take(std::move(next));

@@ -70,6 +70,9 @@ struct RegionValues {
 /// together without tearing at the cloth.
 inline constexpr double kTieReach = 5e-3;
 
+/// The same of a rod, m: stiffer than any button, it would else drag its ends through the cloth.
+inline constexpr double kRodReach = 0.5e-3;
+
 enum class HoldKind : std::uint8_t {
   point,   ///< stays at `hold_point`
   plane,   ///< stays in the plane through `hold_point` with normal `hold_normal` (sliding along a level)
@@ -188,7 +191,7 @@ struct Model {
   // --- padding: what lies between the cloth and the bodies under it
   std::vector<Index> pad_particle;               ///< ascending
   std::vector<double> pad_thickness;             ///< m
-  // --- rods: ties that push as well where their places come nearer than the length, E = k g^2 / 2 for |g| < kTieReach
+  // --- rods: ties that push as well where their places come nearer than the length, E = k g^2 / 2 for |g| < kRodReach
   std::vector<Index> rod_tie;                    ///< index into ties, ascending
   // --- loads: constant forces in space
   std::vector<Index> load_particle;

@@ -233,6 +233,13 @@ void add_body_motions(const design::Garment& garment, model::Model& model) {
   }
 }
 
+/// The motion of a body; -1 where it stands.
+Index motion_of(const std::string& body, const design::Garment& garment, const model::Model& model) {
+  for (std::size_t m = 0; m < model.motions.size(); ++m)
+    if (model.motions[m].body >= 0 && garment.bodies[model.motions[m].body].name == body) return static_cast<Index>(m);
+  return -1;
+}
+
 }  // namespace
 
 void add_holds(const design::Garment& garment, const std::vector<body::Body>& bodies,
@@ -260,7 +267,7 @@ void add_holds(const design::Garment& garment, const std::vector<body::Body>& bo
         Index particle = model.vertex_particle[panels[part.panel].first_vertex + v];
         Vector3d point = model.start[particle];
         if (height) point.y() = *height;
-        holds.add(particle, a.slide ? HoldKind::plane : HoldKind::point, point, model);
+        holds.add(particle, a.slide ? HoldKind::plane : HoldKind::point, point, model, motion_of(a.body, garment, model));
       }
     }
   }

@@ -83,6 +83,7 @@ Json motion(const simulator::MotionReport& m) {
   const simulator::EnergyBalance& b = m.balance;
   return {{"seconds", m.seconds},
           {"steps", m.steps},
+          {"iterations", m.iterations},
           {"least_step", m.least_step},
           {"largest_step", m.largest_step},
           {"stable_step", m.stable_step > 0 ? Json(m.stable_step) : Json(nullptr)},

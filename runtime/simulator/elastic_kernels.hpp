@@ -133,17 +133,13 @@ struct MembraneTerm {
   }
 };
 
-/// By how much a rod may be too long or too short before its force no longer grows, m: stiffer than any button, it would else
-/// drag its ends through the cloth.
-constexpr double kRodReach = 0.5e-3;
-
 /// A thread of stiffness k that is slack up to its length; too long by more than model::kTieReach it pulls no harder. A rod
-/// pushes alike where its ends come too near, and has the reach kRodReach.
+/// pushes alike where its ends come too near, and has the reach model::kRodReach.
 struct TieTerm {
   double energy = 0, force = 0, slope = 0;  ///< J, N, N/m, by the distance of its ends
   TieTerm(double k, double gap, bool rod = false) {
     if (gap <= 0 && !rod) return;
-    const double reach = rod ? kRodReach : model::kTieReach, held = std::clamp(gap, -reach, reach);
+    const double reach = rod ? model::kRodReach : model::kTieReach, held = std::clamp(gap, -reach, reach);
     force = k * held;
     energy = force * (gap - 0.5 * held);
     slope = std::abs(gap) < reach ? k : 0;

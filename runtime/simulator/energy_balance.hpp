@@ -19,7 +19,8 @@ struct EnergyBalance {
 /// What `drape for` tells beside the report of a drape.
 struct MotionReport {
   double seconds = 0;        ///< simulated
-  int steps = 0;             ///< of time, refused ones not counted
+  int steps = 0;             ///< of time, refused ones not counted; 0 of paths followed at rest
+  int iterations = 0;        ///< of Newton's method, in all steps
   double least_step = 0, largest_step = 0;  ///< s
   double stable_step = 0;    ///< s, bound of an explicit solver; 0: none
   EnergyBalance balance;

@@ -30,10 +30,19 @@ constexpr double kOpen = 0.5;              // strain of seams that are still ope
 constexpr double kSame = 1e-9;             // s
 constexpr int kLookAgain = 2000;           // explicit steps between two looks at their bound
 
+/// Of springs and of the threads in cut cells, where seams that are open stretch the cloth.
 double largest_strain(const model::Model& m, const Vectors& x) {
   double worst = 0;
   for (std::size_t s = 0; s < m.spring.size(); ++s)
     worst = std::max(worst, (x[m.spring[s][0]] - x[m.spring[s][1]]).norm() / m.spring_rest[s] - 1);
+  for (std::size_t k = 0; k < m.membrane.size(); ++k) {
+    Vector3d u = Vector3d::Zero(), v = Vector3d::Zero();
+    for (int c = 0; c < 3; ++c) {
+      u += m.membrane_weights[k][c] * x[m.membrane[k][c]];
+      v += m.membrane_weights[k][3 + c] * x[m.membrane[k][c]];
+    }
+    worst = std::max({worst, u.norm() - 1, v.norm() - 1});
+  }
   return worst;
 }
 
@@ -149,6 +158,7 @@ class Mover {
     MotionReport& m = report_.motion;
     EnergyBalance& b = m.balance;
     ++m.steps;
+    m.iterations += t.iterations;
     m.seconds = s_.time - begun_;
     m.least_step = m.steps == 1 ? h : std::min(m.least_step, h);
     m.largest_step = std::max(m.largest_step, h);

@@ -201,6 +201,37 @@ TEST_CASE("moved: a sheet on an incline sticks below the angle of friction, and 
   CHECK(slid > 1e-3);
 }
 
+TEST_CASE("moved: cloth lies still on cloth below the angle of their friction, and slides above it") {
+  const double mu = 0.4;
+  auto slide = [&](double share) {
+    test::SheetSpec under;
+    under.nx = under.ny = 13;
+    under.plane = SheetPlane::horizontal;
+    model::Model table = make_sheet(under);
+    for (int j = 0; j < under.ny; ++j) hold_row(table, under, j);
+    test::SheetSpec over = under;
+    over.nx = over.ny = 6;
+    model::Model sheet = make_sheet(over);
+    for (Vector3d& p : sheet.start) p += Vector3d(0.022, 0.59e-3, -0.033);
+    model::Model m = together(table, sheet);
+    const double a = std::atan(share * mu);
+    m.gravity = kGravity * Vector3d(std::sin(a), -std::cos(a), 0);
+    m.rub_panels.push_back({0, 1});
+    m.rub_panels_factor.push_back(mu);
+    simulator::MotionSettings s = lasting(0.15, 1.0 / 480);
+    s.tolerance = 1e-3;
+    std::vector<double> speed;
+    watch(s, 0.05, [&](const model::State& now, const simulator::DrapeReport&) {
+      speed.push_back(mean(Vectors(now.velocity.begin() + 169, now.velocity.end())).x());
+    });
+    REQUIRE(move(m, s).report.status == simulator::DrapeStatus::ran);
+    return std::pair(speed[3], (speed[3] - speed[1]) / 0.1);
+  };
+  CHECK(std::abs(slide(0.8).first) < 1e-3);
+  const double a = std::atan(1.3 * mu);
+  CHECK(slide(1.3).second == Approx(kGravity * (std::sin(a) - mu * std::cos(a))).epsilon(0.05));
+}
+
 TEST_CASE("moved: cloth thrown at cloth keeps its momentum, and passes through nothing") {
   test::SheetSpec spec;
   spec.nx = spec.ny = 6;

@@ -126,6 +126,34 @@ TEST_CASE("loads: a clamp on a path moves about the middle of what it holds") {
   CHECK(!model::moves_after(m, 2));
 }
 
+TEST_CASE("loads: what is attached to a body that moves goes with it") {
+  design::Garment g = cloth();
+  design::Body declared;
+  declared.name = "form";
+  declared.position = {1, 0, 0};
+  g.bodies.push_back(declared);
+  design::Path path;
+  path.name = "walk";
+  path.body = 0;
+  path.poses = {{0, {0, 0, 0}, {0, 0, 0}}, {1, {0, 0.2, 0}, {0, 0, 0}}};
+  g.scene.paths.push_back(path);
+  design::Attachment a;
+  a.name = "waist";
+  a.body = "form";
+  a.level = "waist";
+  a.parts = {whole(2, 0.1)};
+  g.attachments.push_back(a);
+  body::Body form;
+  form.name = "form";
+  form.levels["waist"] = {0.1, 0.7};
+  const modeller::ModelResult built = modeller::build_model(g, {form});
+  REQUIRE(built.model);
+  const model::Model later = model::at_time(*built.model, 0.5);
+  REQUIRE(later.hold_point.size() == 11);
+  for (const Vector3d& p : later.hold_point) CHECK(p.y() == Approx(0.2));
+  CHECK(built.model->motions[0].pivot.x() == 1);
+}
+
 TEST_CASE("loads: friction of pairs, with the region's factor by its root") {
   design::Garment g = cloth();
   g.fabrics[0].friction = 0.4;
