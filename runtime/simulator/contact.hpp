@@ -13,7 +13,7 @@ namespace garment::simulator {
 ///   Hessian block k,l   share * E''(d) w[k] w[l] n nT   (SPD part)
 ///
 /// share: 1 for a point against a triangle, whichever part of the triangle is nearest, so that nothing jumps where that
-/// changes; from 0 to 1 for edges, full where they cross in their middles. Shares are kept through one step: its energy is
+/// changes; from 0 to 1 for edges, less where they are parallel and their closest points jump. Shares are kept through one step: its energy is
 /// then smooth, and its forces are the energy's gradient.
 struct Contact {
   Indices<4> p{-1, -1, -1,
@@ -34,11 +34,16 @@ struct Contact {
 void active_contacts(const ContactMesh& mesh, const Candidates& candidates, const std::vector<Vector3d>& x,
                      std::vector<Contact>& out, const std::vector<float>* shares = nullptr);
 
+/// Contacts that do not act at x, but would after the step dx as its linear picture has it: the gap's closest points and
+/// direction stay those of x. Sorted by pair; same result for any thread count. Overwrites `out`.
+void coming_contacts(const ContactMesh& mesh, const Candidates& candidates, const std::vector<Vector3d>& x,
+                     const std::vector<Vector3d>& dx, std::vector<Contact>& out);
+
 /// Contact energy E and derivatives at distance d for contact distance r and stiffness k (N/m):
-///   r/2 <= d < r   k/2 (r - d)^2
-///   0 < d < r/2    k r^2/8 + k r^2/4 ln(r / (2 d))
-/// twice differentiable at r/2, once at r; infinite at 0. d is held above 1e-9 m. Source: Chen et al. 2025,
-/// Offset geometric contact, eq. 18 with the switch at r/2.
+///   0 < d < r   k/3 (r - d)^2 ln(r / d)
+/// near r that is k/3 (r - d)^3 / r: cloth that only lies on cloth is met softly and does not rattle between touching and not
+/// touching. Twice differentiable at r; infinite at 0. d is held above 1e-9 m. Source: Li et al. 2020, Incremental potential
+/// contact, eq. 6.
 struct ContactEnergy {
   double value = 0;   ///< J
   double first = 0;   ///< dE/dd, N, <= 0

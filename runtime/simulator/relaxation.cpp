@@ -241,8 +241,30 @@ void Relaxation::solve_step(const Vectors& x, StepReport& report) {
   for (int round = 0;; ++round) {
     report.linear_iterations +=
         linear_.solve(matrix_, stiffness_, force_, kLinearTolerance, kLinearIterations, dx_, &x).iterations;
-    if (round == kForesights || bodies_.foresee(x, dx_, holds_, force_, matrix_) == 0) return;
+    if (round == kForesights) return;
+    const std::size_t coming = foresee_contacts(x);
+    if (bodies_.foresee(x, dx_, holds_, force_, matrix_) + coming == 0) return;
   }
+}
+
+/// Counts contacts of cloth with cloth that the step would close as acting already; returns how many.
+std::size_t Relaxation::foresee_contacts(const Vectors& x) {
+  coming_contacts(mesh_, candidates_, x, dx_, coming_);
+  const double stiffness = settings_.contact_stiffness;
+  for (const Contact& c : coming_) {
+    const double room = c.distance - c.contact_distance;
+    ContactStiffness s{{-1, -1, -1, -1}, {0, 0, 0, 0}, c.normal.cast<float>(), static_cast<float>(c.share * stiffness)};
+    for (int k = 0; k < 4; ++k) {
+      if (c.w[k] == 0) continue;
+      s.particle[k] = c.p[k];
+      s.weight[k] = static_cast<float>(c.w[k]);
+      matrix_.add_diagonal(static_cast<std::size_t>(c.p[k]),
+                           Matrix3d(c.share * stiffness * c.w[k] * c.w[k] * c.normal * c.normal.transpose()));
+      force_[c.p[k]] -= holds_.filtered(c.p[k], Vector3d(c.share * stiffness * room * c.w[k] * c.normal));
+    }
+    stiffness_.push_back(s);
+  }
+  return coming_.size();
 }
 
 /// Adds to dx_ what holds and tangles ask for; true when the energy may rise for it.
@@ -318,7 +340,7 @@ StepReport Relaxation::step(Vectors& x) {
   report.limited = cut.limited;
   report.out_of_reach = cut.out_of_reach;
   if (!report.accepted) {
-    time_step_ = std::max(kSmallestTimeStep, time_step_ / 4);
+      time_step_ = std::max(kSmallestTimeStep, time_step_ / 4);
     return report;
   }
   report.largest_motion = report.scale * largest(dx_);

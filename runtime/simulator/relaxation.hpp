@@ -23,8 +23,8 @@ namespace garment::simulator {
 
 struct RelaxationSettings {
   bool self_collision = true;
-  double self_offset = 0.6e-3;      ///< m, least contact distance of cloth with cloth
-  double contact_stiffness = 200;   ///< N/m, cloth against cloth
+  double self_offset = 1.2e-3;      ///< m, least contact distance of cloth with cloth
+  double contact_stiffness = 100;   ///< N/m, cloth against cloth
   BodyContactSettings body;
   double friction_give = 3e-4;      ///< m, by which a contact with a body gives way before it slips
   double gravity_scale = 1;
@@ -89,6 +89,7 @@ class Relaxation {
   void add_contacts(std::vector<Eigen::Vector3d>& force, bool with_stiffness);
   double assemble(const std::vector<Eigen::Vector3d>& x, StepReport& report);
   void solve_step(const std::vector<Eigen::Vector3d>& x, StepReport& report);
+  std::size_t foresee_contacts(const std::vector<Eigen::Vector3d>& x);
   bool drive(const std::vector<Eigen::Vector3d>& x);
   TruncateStats keep_apart(const std::vector<Eigen::Vector3d>& x);
   void damp(const std::vector<Eigen::Vector3d>& before, const std::vector<Eigen::Vector3d>& after);
@@ -116,7 +117,7 @@ class Relaxation {
   double recent_motion_ = 0.005;      // m, how far particles move in a step these days
   double time_step_ = 1.0 / 60;
   double rms_weight_ = 0;
-  std::vector<Contact> contacts_, trial_contacts_;
+  std::vector<Contact> contacts_, trial_contacts_, coming_;
   std::vector<float> shares_;  // of the contacts of this step, by pair
   std::vector<ContactStiffness> stiffness_;
   std::vector<double> damping_;  // N/m, of particles that swing [n_particles]

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "runtime/base/parallel.hpp"
 #include "runtime/simulator/closest_point.hpp"
@@ -13,14 +14,61 @@ namespace {
 constexpr std::size_t kGrain = 4096;
 constexpr double kZeroGap = 1e-12;  // m: below this the gap has no direction
 constexpr double kLeastGap = 1e-8;  // m: gaps below do not close further; far above all rounding errors here
+constexpr double kLeastRoom = 0.1;  // share of a gap that each side has at least
+constexpr int kRounds = 8;          // after which a wall that leaves a particle behind stands
+constexpr int kMostRounds = 40;      // after which all do
 constexpr int kSweeps = 4;          // over the walls of a particle before its displacement shrinks as a whole
 
-/// A particle may move by at most `bound` along `normal`.
+/// A plane between two parts, in its two sides. It moves along its normal n by `motion` during the step, and a particle i of
+/// the first side keeps n . d_i >= motion - room_i, one of the second n . d_i <= motion + room_i: then the sides stay apart.
 struct Wall {
-  Index particle;
-  float normal[3];
-  float bound;
+  Vector3d normal{0, 0, 0};
+  Indices<4> particle{-1, -1, -1, -1};  ///< -1: does not move (of a body)
+  std::array<float, 4> room{};          ///< m, what a particle may use of its distance to the wall
+  int n_first = 0, n = 0;
+  double motion = 0;  ///< m
+  double gap = 0;     ///< m
+  bool stands = false;  ///< does not move any more, whatever its particles wish
+
+  double sign(int k) const { return k < n_first ? -1 : 1; }
+  /// How much farther towards the wall than allowed `d` takes its particle k, m.
+  double excess(int k, const Vector3d& d) const { return sign(k) * (normal.dot(d) - motion) - room[k]; }
+  /// Whether the wall comes on to particle k faster than its room bears: it has to go on before it.
+  bool drives(int k) const { return room[k] + sign(k) * motion < 0; }
 };
+
+/// How far the nearer of each side's particles go along the normal: the least of the first side, the most of the second.
+struct Sweep {
+  double first = std::numeric_limits<double>::infinity(), second = -std::numeric_limits<double>::infinity();
+  Sweep(const Wall& wall, const std::vector<Vector3d>& dx) {
+    for (int k = 0; k < wall.n; ++k) {
+      const double along = wall.particle[k] < 0 ? 0 : wall.normal.dot(dx[wall.particle[k]]);
+      if (k < wall.n_first)
+        first = std::min(first, along);
+      else
+        second = std::max(second, along);
+    }
+  }
+};
+
+/// The wall goes as far as both sides do, or the slower of them: parts that move together are free, however near they are,
+/// and nobody is driven farther than it wishes. Where they go against each other it stands.
+double common_motion(const Wall& wall, const std::vector<Vector3d>& dx) {
+  if (wall.stands) return 0;
+  const Sweep go(wall, dx);
+  return std::max(std::min(go.first, go.second), std::min(std::max(go.first, go.second), 0.0));
+}
+
+/// Puts the wall, which stands midway, where the sides would meet, so that one that only waits leaves its room to the other.
+void divide(Wall& wall, double fraction, const std::vector<Vector3d>& dx) {
+  const Sweep go(wall, dx);
+  wall.motion = common_motion(wall, dx);
+  const double first = std::max(0.0, wall.motion - go.first), second = std::max(0.0, go.second - wall.motion);
+  if (first + second <= 0) return;
+  const double share = std::clamp(first / (first + second), kLeastRoom, 1 - kLeastRoom);  // of the gap, for the first side
+  const auto shift = static_cast<float>(fraction * (share - 0.5) * wall.gap * (1 - 1e-6));
+  for (int k = 0; k < wall.n; ++k) wall.room[k] = std::max(0.0F, wall.room[k] + (k < wall.n_first ? shift : -shift));
+}
 
 class WallFinder {
  public:
@@ -60,7 +108,8 @@ class WallFinder {
              const Vector3d& motion, const First& first, const Second& second) {
     Vector3d normal = p - q;
     double gap = normal.norm();
-    if (gap < kZeroGap) {
+    const bool gap_known = gap >= kZeroGap;
+    if (!gap_known) {
       gap = without_gap.norm();
       normal = gap > 0 ? without_gap : Vector3d(0, 1, 0);
       if (gap <= 0) gap = 1;
@@ -68,20 +117,24 @@ class WallFinder {
     }
     normal /= gap;
     const bool first_moves = !mesh_.is_body(first[0]), second_moves = !mesh_.is_body(second[0]);
-    const Vector3d wall = !first_moves ? p : (second_moves ? Vector3d(0.5 * (p + q)) : q);
-    if (first_moves)
-      for (Index i : first) add(i, -normal, normal.dot(at(i) - wall));
-    if (second_moves)
-      for (Index i : second) add(i, normal, normal.dot(wall - at(i)));
+    const Vector3d at_rest = !first_moves ? p : (second_moves ? Vector3d(0.5 * (p + q)) : q);
+    Wall wall;
+    wall.normal = normal;
+    bool near = false;
+    for (Index i : first) near |= add(wall, first_moves ? i : -1, normal.dot(at(i) - at_rest));
+    wall.n_first = wall.n;
+    for (Index i : second) near |= add(wall, second_moves ? i : -1, normal.dot(at_rest - at(i)));
+    if (!near) return;
+    wall.gap = first_moves && second_moves && gap_known ? std::max(0.0, gap - 2 * kLeastGap) : 0;
+    out_.push_back(wall);
   }
 
-  void add(Index particle, const Vector3d& towards, double distance) {
-    const double bound = fraction_ * std::max(0.0, distance - kLeastGap);
-    if (length_[particle] <= bound) return;
-    out_.push_back(
-        {particle,
-         {static_cast<float>(towards[0]), static_cast<float>(towards[1]), static_cast<float>(towards[2])},
-         static_cast<float>(bound * (1 - 1e-6))});
+  /// True where the particle's displacement is long enough to reach the wall.
+  bool add(Wall& wall, Index particle, double distance) const {
+    const double room = fraction_ * std::max(0.0, distance - kLeastGap);
+    wall.particle[wall.n] = particle;
+    wall.room[wall.n++] = static_cast<float>(room * (1 - 1e-6));
+    return particle >= 0 && length_[particle] > room;
   }
 
   const ContactMesh& mesh_;
@@ -92,9 +145,8 @@ class WallFinder {
   std::vector<Wall>& out_;
 };
 
-std::vector<std::vector<Wall>> find_walls(const ContactMesh& mesh, const Candidates& candidates,
-                                          const std::vector<Vector3d>& x, const std::vector<Vector3d>& dx,
-                                          double fraction) {
+std::vector<Wall> find_walls(const ContactMesh& mesh, const Candidates& candidates, const std::vector<Vector3d>& x,
+                             const std::vector<Vector3d>& dx, double fraction) {
   const PartMotion moved = motion_since(mesh, candidates, x, &dx);
   std::vector<float> length(dx.size());
   for (std::size_t i = 0; i < dx.size(); ++i) length[i] = static_cast<float>(dx[i].norm() * (1 + 1e-6));
@@ -122,7 +174,12 @@ std::vector<std::vector<Wall>> find_walls(const ContactMesh& mesh, const Candida
       }
     });
   }
-  return found;
+  std::vector<Wall> walls;
+  std::size_t total = 0;
+  for (const auto& chunk : found) total += chunk.size();
+  walls.reserve(total);
+  for (const auto& chunk : found) walls.insert(walls.end(), chunk.begin(), chunk.end());
+  return walls;
 }
 
 /// The largest s in [0, 1] with |u + s d| <= reach; 0 when u lies outside already and d leads no way back.
@@ -134,29 +191,107 @@ double share_within(const Vector3d& u, const Vector3d& d, double reach) {
   return std::max(0.0, (std::sqrt(b * b - dd * c) - b) / dd * (1 - 1e-9));
 }
 
-double along(const Wall& w, const Vector3d& d) {
-  return w.normal[0] * d[0] + w.normal[1] * d[1] + w.normal[2] * d[2];
-}
+/// Where each particle stands in the walls: [begin[i], begin[i + 1]) of `side`.
+struct Sides {
+  struct Side {
+    Index wall;
+    int slot;
+  };
+  std::vector<Index> begin;
+  std::vector<Side> side;
 
-/// Takes the parts of d beyond the walls off, then shrinks what still goes too far.
-Vector3d hold_back(const Wall* begin, const Wall* end, Vector3d d) {
-  for (int sweep = 0; sweep < kSweeps; ++sweep) {
-    bool all_kept = true;
-    for (const Wall* w = begin; w != end; ++w) {
-      const double excess = along(*w, d) - w->bound;
-      if (excess <= 0) continue;
-      d -= excess * Vector3d(w->normal[0], w->normal[1], w->normal[2]);
-      all_kept = false;
+  Sides(const std::vector<Wall>& walls, std::size_t n_particles) : begin(n_particles + 1, 0) {
+    for (const Wall& w : walls)
+      for (int k = 0; k < w.n; ++k)
+        if (w.particle[k] >= 0) ++begin[w.particle[k] + 1];
+    for (std::size_t i = 0; i < n_particles; ++i) begin[i + 1] += begin[i];
+    side.resize(begin.back());
+    std::vector<Index> next(begin.begin(), begin.end() - 1);
+    for (std::size_t w = 0; w < walls.size(); ++w)
+      for (int k = 0; k < walls[w].n; ++k)
+        if (walls[w].particle[k] >= 0) side[next[walls[w].particle[k]]++] = {static_cast<Index>(w), k};
+  }
+};
+
+/// Displacements between walls that move with them.
+class Passage {
+ public:
+  Passage(std::vector<Wall> walls, const std::vector<Vector3d>& x, const Candidates& candidates, std::vector<Vector3d>& dx)
+      : walls_(std::move(walls)), sides_(walls_, dx.size()), x_(x), candidates_(candidates), dx_(dx) {}
+
+  /// Cuts what goes beyond the walls. A particle cut back no longer goes on before the walls behind it: those slow down, and
+  /// what follows them is cut in its turn, round by round; walls that find no speed stand in the end.
+  /// Returns how often a displacement would have passed a wall.
+  std::size_t go(double fraction) {
+    std::vector<char> cut(dx_.size(), 1), next;
+    std::size_t passed = 0;
+    for (Wall& w : walls_) {
+      divide(w, fraction, dx_);
+      for (int k = 0; k < w.n; ++k) passed += w.particle[k] >= 0 && w.excess(k, dx_[w.particle[k]]) > 0 ? 1 : 0;
     }
-    if (all_kept) return d;
+    for (int round = 0; std::find(cut.begin(), cut.end(), 1) != cut.end(); ++round) {
+      if (round == kMostRounds) stop_all(cut);
+      parallel_for(dx_.size(), 1024, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i)
+          if (cut[i]) dx_[i] = hold_back(i, dx_[i]);
+      });
+      next.assign(dx_.size(), 0);
+      for (Wall& w : walls_)
+        if (left_behind(w)) {
+          w.stands = w.stands || round >= kRounds;
+          w.motion = common_motion(w, dx_);
+          for (int k = 0; k < w.n; ++k)
+            if (w.particle[k] >= 0) next[w.particle[k]] = 1;
+        }
+      cut.swap(next);
+    }
+    return passed;
   }
-  double share = 1;
-  for (const Wall* w = begin; w != end; ++w) {
-    const double a = along(*w, d);
-    if (a > w->bound) share = std::min(share, w->bound / a);
+
+ private:
+  void stop_all(std::vector<char>& cut) {
+    for (Wall& w : walls_) w.stands = true, w.motion = 0;
+    cut.assign(cut.size(), 1);
   }
-  return share * d;
-}
+
+  bool left_behind(const Wall& w) const {
+    if (w.motion == 0) return false;
+    for (int k = 0; k < w.n; ++k)
+      if (w.particle[k] >= 0 && w.drives(k) && w.excess(k, dx_[w.particle[k]]) > 0) return true;
+    return false;
+  }
+
+  /// Takes the parts of d beyond the walls off, then shrinks what still goes too far. Never makes d longer.
+  Vector3d hold_back(std::size_t i, Vector3d d) {
+    bool all_kept = false;
+    for (int sweep = 0; sweep < kSweeps && !all_kept; ++sweep) {
+      all_kept = true;
+      for (Index s = sides_.begin[i]; s < sides_.begin[i + 1]; ++s) {
+        const auto [wall, k] = sides_.side[s];
+        const Wall& w = walls_[wall];
+        if (w.drives(k)) continue;
+        const double excess = w.excess(k, d);
+        if (excess <= 0) continue;
+        d -= excess * w.sign(k) * w.normal;
+        all_kept = false;
+      }
+    }
+    double share = share_within(x_[i] - candidates_.reference()[i], d, candidates_.reach());
+    for (Index s = sides_.begin[i]; !all_kept && s < sides_.begin[i + 1]; ++s) {
+      const auto [wall, k] = sides_.side[s];
+      const Wall& w = walls_[wall];
+      const double along = w.sign(k) * w.normal.dot(d), bound = w.room[k] + w.sign(k) * w.motion;
+      if (bound >= 0 && along > bound) share = std::min(share, bound / along);
+    }
+    return share * d;
+  }
+
+  std::vector<Wall> walls_;
+  Sides sides_;
+  const std::vector<Vector3d>& x_;
+  const Candidates& candidates_;
+  std::vector<Vector3d>& dx_;
+};
 
 }  // namespace
 
@@ -164,39 +299,21 @@ TruncateStats truncate(const ContactMesh& mesh, const Candidates& candidates, co
                        std::vector<Vector3d>& dx, const TruncateOptions& options) {
   const std::vector<Vector3d>& x0 = candidates.reference();
   const std::vector<Vector3d> wish = dx;
-  for (std::size_t i = 0; i < dx.size(); ++i) {
-    // Longer ones cannot end within reach; what is not finite does not move.
-    const double length = dx[i].norm(), most = candidates.reach() + (x[i] - x0[i]).norm();
-    if (!(length < 1e300))
-      dx[i].setZero();
-    else if (length > most)
-      dx[i] *= most / length;
-  }
-  const std::vector<std::vector<Wall>> found = find_walls(mesh, candidates, x, dx, options.fraction);
-
-  std::vector<Index> begin(dx.size() + 1, 0);
   TruncateStats stats;
-  for (const auto& chunk : found)
-    for (const Wall& w : chunk) ++begin[w.particle + 1];
-  for (std::size_t i = 0; i < dx.size(); ++i) begin[i + 1] += begin[i];
-  std::vector<Wall> wall(begin.back());
-  std::vector<Index> next(begin.begin(), begin.end() - 1);
-  for (const auto& chunk : found)
-    for (const Wall& w : chunk) {
-      wall[next[w.particle]++] = w;
-      if (along(w, dx[w.particle]) > w.bound) ++stats.walls;
-    }
-
-  parallel_for(dx.size(), 1024, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i)
-      dx[i] = hold_back(wall.data() + begin[i], wall.data() + begin[i + 1], dx[i]);
-  });
   for (std::size_t i = 0; i < dx.size(); ++i) {
+    if (!(dx[i].norm() < 1e300)) {  // what is not finite does not move
+      dx[i].setZero();
+      continue;
+    }
     const double share = share_within(x[i] - x0[i], dx[i], candidates.reach());
     if (share < 1) {
       dx[i] *= share;
       ++stats.out_of_reach;
     }
+  }
+  Passage passage(find_walls(mesh, candidates, x, dx, options.fraction), x, candidates, dx);
+  stats.walls = passage.go(options.fraction);
+  for (std::size_t i = 0; i < dx.size(); ++i) {
     const double cut = (wish[i] - dx[i]).norm();
     if (cut != 0) ++stats.limited;
     if (cut > stats.largest_cut) stats.largest_cut = cut;

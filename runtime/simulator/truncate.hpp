@@ -20,14 +20,16 @@ struct TruncateStats {
 
 /// Changes `dx` [n_particles, m] so that x + t dx, t in [0, 1], starts no intersection.
 ///
-/// For every pair in `candidates` that is not exempt the plane between its closest points, square to the gap,
-/// is a wall: midway between two pieces of cloth, at the body between cloth and body. A particle uses at most
-/// `fraction` of its distance to each of its walls; what would go farther is taken off along the wall's
-/// normal, motion along the wall stays. Where several walls do not agree, the whole displacement of the
-/// particle shrinks. Pairs that are not listed are safe because no particle goes farther than
+/// For every pair in `candidates` that is not exempt a plane square to the gap between its closest points is a wall. The wall
+/// moves along its normal as far as both sides wish to go, or the slower of them, so that layers that move together are free
+/// however near they are; where the sides go against each other it stands. Of its distance to the wall a particle uses at most
+/// `fraction`; the gap is shared by how far each side comes (a side has at least a tenth). What would go farther is taken off
+/// along the wall's normal, motion along the wall stays. Where several walls do not agree, the whole displacement of the
+/// particle shrinks. A particle that was cut back does not go on before the walls behind it any more: those slow down, in
+/// rounds, and stand in the end. Pairs that are not listed are safe because no particle goes farther than
 /// `candidates.reach()` from the reference. Gaps below 1e-8 m do not close further. The length of no
 /// displacement grows. Precondition: every x lies within reach of the reference (always so when x moved by
-/// truncated displacements only). Source: Chen et al. 2025, Offset geometric contact, 3.4, with planes
+/// truncated displacements only). Source: Chen et al. 2025, Offset geometric contact, 3.4, with moving planes
 /// instead of balls.
 TruncateStats truncate(const ContactMesh& mesh, const Candidates& candidates, const std::vector<Vector3d>& x,
                        std::vector<Vector3d>& dx, const TruncateOptions& options = {});

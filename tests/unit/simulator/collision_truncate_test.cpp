@@ -111,7 +111,7 @@ TEST_CASE("motion along a wall is free, motion away too", "[collision]") {
   CHECK(dx[4] == Vector3d(0, 0.005, 0));
 }
 
-TEST_CASE("between cloth and body the whole gap is free, between cloth and cloth half of it", "[collision]") {
+TEST_CASE("who comes has the gap to itself, who comes too shares it", "[collision]") {
   model::Model m = test::join(test::sheet(3, 3, 0.01), test::sheet(3, 3, 0.01));
   std::vector<Vector3d> x = m.start;
   for (std::size_t i = 9; i < 18; ++i) x[i][1] = 0.002;
@@ -121,11 +121,14 @@ TEST_CASE("between cloth and body the whole gap is free, between cloth and cloth
   std::vector<Vector3d> dx(x.size(), Vector3d::Zero());
   for (std::size_t i = 9; i < 18; ++i) dx[i] = {0.003, -0.005, 0.001};
   truncate(mesh, candidates, x, dx, {.fraction = 0.8});
-  for (std::size_t i = 9; i < 18; ++i) {
-    CHECK(dx[i][1] == Approx(-0.8 * 0.001).epsilon(1e-4));
+  for (std::size_t i = 9; i < 18; ++i) {  // towards a sheet that waits: which keeps a tenth of the gap
+    CHECK(dx[i][1] == Approx(-0.8 * 0.9 * 0.002).epsilon(1e-4));
     CHECK(dx[i][0] == Approx(0.003).epsilon(1e-4));
     CHECK(dx[i][2] == Approx(0.001).epsilon(1e-4));
   }
+  for (std::size_t i = 0; i < 18; ++i) dx[i] = {0, i < 9 ? 0.005 : -0.005, 0};
+  truncate(mesh, candidates, x, dx, {.fraction = 0.8});
+  for (std::size_t i = 0; i < 18; ++i) CHECK(dx[i][1] == Approx(i < 9 ? 0.8 * 0.001 : -0.8 * 0.001).epsilon(1e-4));
   // The ground: a big flat-topped body.
   body::Body ground;
   ground.mesh.vertices = {{-1, -0.002, -1}, {1, -0.002, -1}, {1, -0.002, 1}, {-1, -0.002, 1}, {0, -1, 0}};
@@ -140,6 +143,26 @@ TEST_CASE("between cloth and body the whole gap is free, between cloth and cloth
     CHECK(d[1] == Approx(-0.8 * 0.002).epsilon(1e-4));
     CHECK(d[0] == Approx(0.002).epsilon(1e-4));
   }
+}
+
+TEST_CASE("sheets that go together are free, however near; one that is held holds the other back", "[collision]") {
+  model::Model m = test::join(test::sheet(4, 4, 0.01), test::sheet(4, 4, 0.01));
+  std::vector<Vector3d> x = m.start;
+  for (std::size_t i = 16; i < 32; ++i) x[i][1] = 1e-4;
+  const ContactMesh mesh(m, {});
+  Candidates candidates;
+  candidates.rebuild(mesh, x, 0.02);
+  const std::vector<Vector3d> together(x.size(), Vector3d(0.001, 0.006, -0.002));
+  std::vector<Vector3d> dx = together;
+  CHECK(truncate(mesh, candidates, x, dx).limited == 0);
+  CHECK(dx == together);
+  for (std::size_t i = 16; i < 32; ++i) dx[i].setZero();  // the upper one stays
+  truncate(mesh, candidates, x, dx);
+  for (std::size_t i = 0; i < 16; ++i) CHECK(dx[i][1] < 1e-4);
+  dx = together;
+  for (std::size_t i = 16; i < 32; ++i) dx[i] *= 0.5;  // goes on half as far
+  truncate(mesh, candidates, x, dx);
+  for (std::size_t i = 0; i < 16; ++i) CHECK((dx[i][1] > 0.003 && dx[i][1] < 0.0031));
 }
 
 TEST_CASE("nobody leaves the reach of the candidates, broken numbers do not move", "[collision]") {
