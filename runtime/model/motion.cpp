@@ -39,10 +39,6 @@ Placement placement_at(const Motion& motion, double time) {
   return p;
 }
 
-bool moves_after(const Model& model, double time) {
-  return std::any_of(model.motions.begin(), model.motions.end(), [&](const Motion& m) { return m.poses.back().time > time; });
-}
-
 void move_holds(const Model& start, double time, Model& moved) {
   std::vector<Placement> placements;
   for (const Motion& m : start.motions) placements.push_back(placement_at(m, time));

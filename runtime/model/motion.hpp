@@ -22,9 +22,6 @@ Eigen::Matrix3d rotation(const Vector3d& turn);
 /// Where the motion has come to at `time` (s): moves and angles run straight between poses.
 Placement placement_at(const Motion& motion, double time);
 
-/// True where something moves after `time`: the last pose of some motion is still to come.
-bool moves_after(const Model& model, double time);
-
 /// The model with its moving holds where they are at `time`; the rest is a copy.
 Model at_time(const Model& model, double time);
 

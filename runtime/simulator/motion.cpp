@@ -172,9 +172,18 @@ class Mover {
     report_.residual = t.residual;
     report_.energy = t.stored;
     report_.reactions = reactions(model_, cloth_.holds(), t.unborne);
+    if (m.steps == 1 && settings_.method == MotionMethod::dynamic_constraints) tell_redundant();
     if (halvings_ > 0 && ++well_ >= kGrowAfter) --halvings_, well_ = 0;
     if (settings_.progress)
       settings_.progress({m.steps, s_.x.size(), t.residual, settings_.tolerance, 0, "moving", m.seconds, settings_.duration});
+  }
+
+  void tell_redundant() {
+    if (constraints_.redundant() == 0) return;
+    report_.findings.push_back({"G0809", Severity::note,
+                                fmt::format("{} of the rows of the constraints say what others say already", constraints_.redundant()),
+                                {},
+                                "nothing is to be done: they share the force; a particle that is both pinned and constrained has such rows"});
   }
 
   bool stuck() {

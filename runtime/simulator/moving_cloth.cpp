@@ -14,8 +14,8 @@ using Eigen::Vector3d;
 using Vectors = std::vector<Vector3d>;
 
 constexpr double kStandardGravity = 9.80665;  // m/s^2
-constexpr double kSelfOffset = 0.6e-3;        // m, least contact distance of cloth with cloth, as in a drape to rest
-constexpr double kContactStiffness = 200;     // N/m
+constexpr double kSelfOffset = 1.2e-3;        // m, least contact distance of cloth with cloth, as in a drape to rest
+constexpr double kContactStiffness = 100;     // N/m
 constexpr double kFrictionGive = 1e-5;        // m, by which what sticks gives way: cloth in motion feels its springs
 constexpr double kHoldSpeed = 1;              // m/s, of what is not yet where its hold is
 constexpr double kLeastRoom = 2e-3;           // m, that a particle may go in one iteration however near a body is

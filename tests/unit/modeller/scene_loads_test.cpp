@@ -122,8 +122,6 @@ TEST_CASE("loads: a clamp on a path moves about the middle of what it holds") {
     CHECK((end.hold_point[m.moved_hold[k]] - m.motions[0].pivot - Vector3d(0, 0.1, 0) + off - 2 * off.z() * Vector3d::UnitZ()).norm() < 1e-9);
     CHECK((half.hold_point[m.moved_hold[k]] - m.motions[0].pivot - Vector3d(0, 0.05, 0)).norm() == Approx(off.norm()).margin(1e-9));
   }
-  CHECK(model::moves_after(m, 1.9));
-  CHECK(!model::moves_after(m, 2));
 }
 
 TEST_CASE("loads: what is attached to a body that moves goes with it") {
