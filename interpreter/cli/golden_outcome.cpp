@@ -8,14 +8,14 @@
 #include "interpreter/language/construct_table.hpp"
 #include "interpreter/language/interpret.hpp"
 #include "interpreter/language/script_values.hpp"
+#include "interpreter/session/drape_act.hpp"
 #include "interpreter/session/drape_answers.hpp"
-#include "interpreter/session/models.hpp"
 #include "runtime/base/number.hpp"
 #include "runtime/model/dump.hpp"
 #include "runtime/modeller/modeller.hpp"
 #include "runtime/modeller/unmodelled.hpp"
 #include "runtime/results/report.hpp"
-#include "runtime/simulator/drape_levels.hpp"
+#include "runtime/simulator/moved_bodies.hpp"
 
 namespace garment::cli {
 namespace {
@@ -34,7 +34,12 @@ bool has_error(const grammar::Diagnostics& diagnostics) {
 class GoldenRun {
  public:
   GoldenRun(GoldenOutcome& outcome, interpreter::Interpretation& script, const model::Model& model, Host& host)
-      : outcome_(outcome), script_(script), model_(model), host_(host) {
+      : outcome_(outcome),
+        script_(script),
+        model_(model),
+        host_(host),
+        bodies_(script.bodies),
+        recorder_(script, model, [](const std::string&, const std::string&) {}) {
     state_.position = model.start;
     state_.velocity.assign(model.n_particles(), Eigen::Vector3d::Zero());
   }
@@ -43,6 +48,7 @@ class GoldenRun {
     for (const interpreter::Act& act : script_.acts) {
       if (has_error(outcome_.diagnostics) || host_.interrupted()) return;
       if (const auto* drape = std::get_if<interpreter::DrapeAct>(&act.act)) this->drape(*drape, act.span);
+      if (const auto* record = std::get_if<interpreter::RecordAct>(&act.act)) recorder_.add(*record);
       const bool asks = std::holds_alternative<interpreter::ExpectAct>(act.act) ||
                         std::holds_alternative<interpreter::MeasureAct>(act.act);
       if (asks && !draped_)
@@ -60,17 +66,15 @@ class GoldenRun {
   }
 
   void drape(const interpreter::DrapeAct& act, grammar::Span span) {
-    if (!act.until_rest) return refuse("G0804", "`drape for` a time is not supported yet", "write `drape until rest`", span);
-    simulator::DrapeSettings settings;
-    settings.settle = act.settle;
-    settings.interrupted = [this] { return host_.interrupted(); };
-    std::vector<model::Model> coarse;
-    if (!draped_) coarse = session::coarse_models(script_.garment, script_.bodies, model_);
+    session::DrapeScene scene{script_, bodies_, model_, draped_, {}, &recorder_};
+    scene.settings.interrupted = [this] { return host_.interrupted(); };
     const double begun = host_.seconds();
-    report_ = simulator::drape_levels(coarse, model_, script_.bodies, state_, settings);
+    report_ = session::perform_drape(act, scene, state_);
+    if (!model_.motions.empty()) script_.bodies = simulator::bodies_at(bodies_, model_, state_.time);
+    add(outcome_.diagnostics, recorder_.take_diagnostics());
     outcome_.drape_seconds += host_.seconds() - begun;
     draped_ = true;
-    add(outcome_.diagnostics, interpreter::to_diagnostics(report_.findings, script_.origins));
+    add(outcome_.diagnostics, session::told_by(report_, script_, span));
     outcome_.text += fmt::format("drape: {}\n", results::status_name(report_.status));
   }
 
@@ -92,6 +96,8 @@ class GoldenRun {
   interpreter::Interpretation& script_;
   const model::Model& model_;
   Host& host_;
+  std::vector<body::Body> bodies_;  // at time 0
+  session::Recorder recorder_;
   model::State state_;
   simulator::DrapeReport report_;
   bool draped_ = false;

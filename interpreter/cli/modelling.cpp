@@ -30,7 +30,7 @@ bool measures_in_rounds(const Project& project) {
   return varies;
 }
 
-bool check_acts(const Project& project, bool refused_too, Terminal& terminal) {
+bool check_acts(const Project& project, Terminal& terminal) {
   grammar::Diagnostics told;
   auto warn = [&told](const char* code, const char* message, const char* help, grammar::Span span) {
     grammar::Diagnostic d = plain_error(code, message, help);
@@ -52,12 +52,6 @@ bool check_acts(const Project& project, bool refused_too, Terminal& terminal) {
       told.back().severity = Severity::error;
       right = false;
     }
-    if (!refused_too) continue;
-    if (drape != nullptr && !drape->until_rest)
-      warn("G0804", "`drape for` a time cannot be run yet", "write `drape until rest`", act.span);
-    if (std::holds_alternative<interpreter::RecordAct>(act.act))
-      warn("G1325", "a curve cannot be recorded yet", "`garment run` refuses it; leave `record` out for now",
-           act.span);
   }
   show(told, project.sources, terminal);
   return right;
@@ -66,7 +60,7 @@ bool check_acts(const Project& project, bool refused_too, Terminal& terminal) {
 ExitCode check_model(Project& project, bool whole, Terminal& terminal) {
   Findings missing = modeller::find_unmodelled(project.result.garment, Severity::warning);
   show_findings(missing, project, terminal);
-  if (!check_acts(project, true, terminal)) return kDiagnostics;
+  if (!check_acts(project, terminal)) return kDiagnostics;
   if (project.result.script != nullptr && project.result.garment.panels.empty() && interpreter::is_library(*project.result.script))
     return kOk;
   const bool quick = !whole && !project.is_pattern && !project.result.garment.panels.empty();

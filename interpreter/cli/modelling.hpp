@@ -14,9 +14,9 @@ std::optional<model::Model> build_model(Project& project, Terminal& terminal);
 /// the garment is then not modelled. Only `whole` builds the model of a script; a specification's is always built.
 ExitCode check_model(Project& project, bool whole, Terminal& terminal);
 
-/// False, with the error printed, where a question to a drape stands before any. Says also which acts `garment run` will refuse
-/// where `refused_too`. A script that only varies has its measures asked in each round.
-bool check_acts(const Project& project, bool refused_too, Terminal& terminal);
+/// False, with the error printed, where a question to a drape stands before any. A script that only varies has its measures
+/// asked in each round.
+bool check_acts(const Project& project, Terminal& terminal);
 
 /// The script drapes nothing itself and has studies: its measures belong to their rounds.
 bool measures_in_rounds(const Project& project);

@@ -7,13 +7,14 @@
 #include "interpreter/cli/modelling.hpp"
 #include "interpreter/cli/outputs.hpp"
 #include "interpreter/cli/study.hpp"
+#include "interpreter/session/drape_act.hpp"
 #include "interpreter/session/drape_answers.hpp"
-#include "interpreter/session/models.hpp"
 #include "runtime/base/hash.hpp"
 #include "runtime/base/number.hpp"
+#include "runtime/modeller/holds.hpp"
 #include "runtime/modeller/modeller.hpp"
 #include "runtime/results/report.hpp"
-#include "runtime/simulator/drape_levels.hpp"
+#include "runtime/simulator/moved_bodies.hpp"
 
 namespace garment::cli {
 namespace {
@@ -48,7 +49,8 @@ void fill_sources(results::Report& report, const Project& project) {
 
 ExitCode exit_code_of(simulator::DrapeStatus status) {
   switch (status) {
-    case simulator::DrapeStatus::at_rest: return kOk;
+    case simulator::DrapeStatus::at_rest:
+    case simulator::DrapeStatus::ran: return kOk;
     case simulator::DrapeStatus::interrupted: return kInterrupted;
     case simulator::DrapeStatus::not_settled:
     case simulator::DrapeStatus::tangled:
@@ -67,30 +69,27 @@ struct Run {
   OutputFolder& out;
   results::Report& report;
   design::Garment holding;  ///< less what was released
-  model::State state;
+  std::vector<body::Body> bodies;  ///< at time 0; the project's are where they are now
+  session::Recorder recorder;
+  model::State state{};
   bool draped = false;
   ExitCode code = kOk;
 
   void drape(const interpreter::DrapeAct& act, grammar::Span span) {
-    if (!act.until_rest) {
-      grammar::Diagnostic d = plain_error("G0804", "`drape for` a time is not supported yet", "write `drape until rest`");
-      d.labels.push_back({span, ""});
-      show({d}, project.sources, terminal);
-      code = kDiagnostics;
-      return;
-    }
-    simulator::DrapeSettings settings;
-    settings.settle = act.settle;
-    if (options.max_steps > 0) settings.max_steps = options.max_steps;
-    settings.progress = [this](const simulator::DrapeProgress& p) { terminal.progress(p, host); };
-    settings.interrupted = [this] { return host.interrupted(); };
-    std::vector<model::Model> coarse;
-    if (!draped) coarse = session::coarse_models(project.result.garment, project.result.bodies, model);
+    session::DrapeScene scene{project.result, bodies, model, draped, {}, &recorder};
+    if (options.max_steps > 0) scene.settings.max_steps = options.max_steps;
+    scene.settings.progress = [this](const simulator::DrapeProgress& p) { terminal.progress(p, host); };
+    scene.settings.interrupted = [this] { return host.interrupted(); };
     report.settle = act.settle;
-    report.drape = simulator::drape_levels(coarse, model, project.result.bodies, state, settings);
+    report.drape = session::perform_drape(act, scene, state);
     terminal.end_progress();
     draped = true;
-    show(interpreter::to_diagnostics(report.drape.findings, project.result.origins), project.sources, terminal);
+    if (!model.motions.empty()) project.result.bodies = simulator::bodies_at(bodies, model, state.time);
+    if (grammar::Diagnostics told = recorder.take_diagnostics(); !told.empty()) {
+      show(told, project.sources, terminal);
+      code = kDiagnostics;
+    }
+    show(session::told_by(report.drape, project.result, span), project.sources, terminal);
     code = std::max(code, exit_code_of(report.drape.status));
   }
 
@@ -104,24 +103,13 @@ struct Run {
     design::Garment left = holding;
     std::erase_if(left.pins, [](const design::Pin& pin) { return pin.panel < 0; });
     std::erase_if(left.scene.clamps, [](const design::Clamp& c) { return c.region < 0 && c.parts.empty(); });
-    modeller::ModelResult built = modeller::build_model(left, project.result.bodies);
+    modeller::ModelResult built = modeller::build_model(left, bodies);
     if (!built.model || built.model->n_particles() != model.n_particles()) {
       show(interpreter::to_diagnostics(built.findings, project.result.origins), project.sources, terminal);
       code = kDiagnostics;
       return;
     }
-    model.hold_particle = built.model->hold_particle;
-    model.hold_kind = built.model->hold_kind;
-    model.hold_point = built.model->hold_point;
-    model.hold_normal = built.model->hold_normal;
-    model.bend_rigidity = built.model->bend_rigidity;  // jaws stiffen the cloth where it leaves them
-  }
-
-  void refuse_record(const interpreter::Act& act) {
-    grammar::Diagnostic d = plain_error("G1325", "a curve cannot be recorded yet", "leave `record` out for now");
-    d.labels.push_back({act.span, ""});
-    show({d}, project.sources, terminal);
-    code = kDiagnostics;
+    modeller::take_holds(*built.model, model);
   }
 
   void expect(const interpreter::Act& act) {
@@ -153,7 +141,7 @@ void perform(Run& run) {
     if (std::holds_alternative<interpreter::ExpectAct>(act.act)) run.expect(act);
     if (std::holds_alternative<interpreter::MeasureAct>(act.act)) run.measure(act);
     if (auto* release = std::get_if<interpreter::ReleaseAct>(&act.act)) run.release(*release);
-    if (std::holds_alternative<interpreter::RecordAct>(act.act)) run.refuse_record(act);
+    if (auto* record = std::get_if<interpreter::RecordAct>(&act.act)) run.recorder.add(*record);
     if (auto* vary = std::get_if<interpreter::VaryAct>(&act.act))
       run.code = std::max(run.code, run_study(run.options, *vary, run.out.folder(), run.host, run.terminal));
     if (auto* save = std::get_if<interpreter::SaveAct>(&act.act))
@@ -162,11 +150,27 @@ void perform(Run& run) {
   }
 }
 
+void summarise_motion(const simulator::DrapeReport& drape, double taken, Terminal& terminal) {
+  const simulator::MotionReport& m = drape.motion;
+  auto joule = [](double x) { return format_number(x, 3) + " J"; };
+  const std::string steps = m.steps == 0 ? fmt::format("{} steps, at rest at every moment", drape.steps)
+                                         : fmt::format("{} steps of {} to {} ms", m.steps, format_number(1000 * m.least_step, 3),
+                                                       format_number(1000 * m.largest_step, 3));
+  terminal.note(fmt::format("{}: {} s in {}, {}, {} intersections", results::status_name(drape.status), format_number(m.seconds, 4),
+                            steps, say_seconds(taken), drape.self_intersections + drape.body_intersections + drape.inside_body));
+  if (m.stable_step > 0) terminal.note(fmt::format("       explicit steps are stable up to {} ms", format_number(1000 * m.stable_step, 3)));
+  if (m.steps > 0)
+    terminal.note(fmt::format("       energy: kinetic {}, stored {}; work {}, damping {}, friction {}, lost to the steps {}",
+                              joule(m.balance.kinetic), joule(m.balance.stored), joule(m.balance.work), joule(m.balance.damping),
+                              joule(m.balance.friction), joule(m.balance.numerical)));
+}
+
 void summarise(const results::Report& report, const OutputFolder& out, bool draped, Terminal& terminal) {
   double drape_seconds = 0;
   for (const results::PhaseTime& p : report.phases)
     if (p.phase == "drape") drape_seconds = p.seconds;
-  if (draped)
+  if (draped && report.drape.motion.seconds > 0) summarise_motion(report.drape, drape_seconds, terminal);
+  else if (draped)
     terminal.note(fmt::format("{}: {} particles, {} steps in {}, residual {} of the weight, largest strain {}%, {}",
                               results::status_name(report.drape.status), say_count(report.particles), report.drape.steps,
                               say_seconds(drape_seconds), format_number(report.drape.residual, 2),
@@ -195,13 +199,14 @@ ExitCode run_script(const RunOptions& options, results::Report& report, bool& re
   if (ExitCode code = load(project, wanted, host, terminal); code != kOk) return code;
   watch.lap("evaluate");
   // A question before any drape would be answered from the flat start, and pass.
-  if (!check_acts(project, false, terminal)) return kDiagnostics;
+  if (!check_acts(project, terminal)) return kDiagnostics;
   std::optional<model::Model> model = build_model(project, terminal);
   if (!model) return kDiagnostics;
   watch.lap("model");
 
   OutputFolder out(options.out.empty() ? project.name : options.out, host, terminal, options.project.allow_write);
-  Run under_way{options, host, terminal, project, *model, out, report, project.result.garment, {}, false, kOk};
+  session::Recorder recorder(project.result, *model, [&out](const std::string& name, const std::string& bytes) { out.write(name, bytes); });
+  Run under_way{options, host, terminal, project, *model, out, report, project.result.garment, project.result.bodies, std::move(recorder)};
   under_way.state.position = model->start;
   under_way.state.velocity.assign(model->n_particles(), Eigen::Vector3d::Zero());
   for (const interpreter::MeasureValue& m : project.result.measures) under_way.keep_measure(m);

@@ -69,11 +69,20 @@ std::string Terminal::time_left(const simulator::DrapeProgress& p, double now) {
 void Terminal::progress(const simulator::DrapeProgress& p, Host& host) {
   if (options_.quiet) return;
   double now = host.seconds();
-  std::string left = time_left(p, now);
+  std::string left = p.duration > 0 ? "" : time_left(p, now);
   if (now - last_ < (live_ ? kLiveInterval : kPlainInterval)) return;
   last_ = now;
+  if (p.duration > 0) {
+    show_progress(fmt::format("{}: {} of {} s, step {}, {} particles", p.phase, format_number(p.time, 4),
+                              format_number(p.duration, 4), p.step, say_count(p.particles)));
+    return;
+  }
   std::string line = fmt::format("{}: step {}, {} particles, residual {} of the weight (rest at {}){}", p.phase, p.step,
                                  say_count(p.particles), format_number(p.residual, 2), format_number(p.target, 2), left);
+  show_progress(line);
+}
+
+void Terminal::show_progress(const std::string& line) {
   if (live_)
     fmt::print(stderr, "\r\x1b[K{}", line), std::fflush(stderr), line_open_ = true;
   else

@@ -37,6 +37,7 @@ class Terminal {
   void end_progress();
 
  private:
+  void show_progress(const std::string& line);
   std::string time_left(const simulator::DrapeProgress& progress, double now);
 
   TerminalOptions options_;

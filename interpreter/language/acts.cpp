@@ -28,6 +28,8 @@ class AnyDrape : public DrapeMeasures {
   std::optional<double> drape_coefficient(int) const override { return 1; }
   std::optional<double> nodes(int) const override { return 1; }
   std::optional<Eigen::Vector3d> position(int) const override { return Eigen::Vector3d(1, 1, 1); }
+  std::optional<Eigen::Vector3d> reaction(const std::string&) const override { return Eigen::Vector3d(1, 1, 1); }
+  std::optional<double> elapsed() const override { return 1; }
   std::optional<Eigen::Vector3d> position(int, const design::Point2&) const override {
     return Eigen::Vector3d(1, 1, 1);
   }
@@ -153,7 +155,12 @@ Verdict judge(Program& program, const Statement& statement, Scope& scope) {
 
 void check_questions(Program& program, const std::vector<const Expr*>& questions, Scope& scope) {
   for (const Expr* question : questions)
-    try_question(program, [&] { eval(program, *question, scope); });
+    try_question(program, [&] {
+      const Value value = eval(program, *question, scope);
+      if (value.as<Quantity>() == nullptr)
+        fail(program, Message("G0306", kind_of(value) + " where a curve takes a number", question->span)
+                          .help("as in `position(corner).y` or `reaction(jaw).y`"));
+    });
 }
 
 void run_garment(Program& program, const Item& item) {

@@ -114,8 +114,7 @@ void note_unused(Program& program, const Given& given) {
   constexpr std::pair<Slot, const char*> kUnused[] = {{Slot::RT, "`RT`"},
                                                       {Slot::HG, "`two_HG`"},
                                                       {Slot::HG5, "`two_HG5`"},
-                                                      {Slot::HB, "`two_HB`"},
-                                                      {Slot::damping, "`damping`"}};
+                                                      {Slot::HB, "`two_HB`"}};
   std::vector<std::string> names;
   std::vector<Span> places;
   for (const auto& [slot, name] : kUnused)
@@ -134,8 +133,7 @@ void note_unused(Program& program, const Given& given) {
                   places[0]);
   for (std::size_t k = 1; k < places.size(); ++k) message.also(places[k], "");
   message.diagnostic.severity = Severity::note;
-  report(program, message.help("nothing is to be done: cloth springs back here without loss, and its damping has no "
-                               "effect at rest"));
+  report(program, message.help("nothing is to be done: cloth springs back here without loss"));
 }
 
 }  // namespace garment::interpreter

@@ -36,11 +36,26 @@ Value run_nodes(Call& call) {
   fail(call.program, Message("G0325", "the folds are not known: the panel has no rim", call.expr.span));
 }
 
+Value run_reaction(Call& call) {
+  const DrapeMeasures& drape = drape_of(call);
+  const Value& of = call.arguments[0];
+  std::string name;
+  if (const auto* pin = of.as<PinValue>()) name = call.program.garment.pins[static_cast<std::size_t>(pin->pin)].name;
+  if (const auto* thing = of.as<ThingValue>(); thing != nullptr && thing->keyword == "clamp")
+    name = call.program.garment.scene.clamps[static_cast<std::size_t>(thing->index)].name;
+  if (name.empty())
+    fail(call.program, Message("G0306", "`reaction` of " + kind_of(of), call.given(0) ? call.places[0]->span : call.expr.span)
+                           .help("it takes a clamp or a pin"));
+  const auto force = drape.reaction(name);
+  if (!force) fail(call.program, Message("G0325", "`reaction` is not known: `" + name + "` holds nothing now", call.expr.span));
+  return Value{PointValue{{force->x(), force->y(), force->z()}, 3, kForce, -1}};
+}
+
 Value run_later(Call& call) {
   fail(call.program,
        Message("G1326", "`" + std::string(call.record.name) + "` cannot be asked of a drape yet",
                call.expr.span)
-           .help("ask strain, shear, clearance, length, area, mass, energy, position, drape_coefficient or "
+           .help("ask strain, shear, clearance, length, area, mass, energy, position, reaction, drape_coefficient or "
                  "nodes"));
 }
 
@@ -83,8 +98,15 @@ std::vector<FunctionRecord> drape_test_functions() {
       later("stress", "stress(PANEL | all)", "largest tension (not supported yet)", "stress(all)", {"panel"}),
       later("pressure", "pressure(PANEL | all)", "largest pressure on a body (not supported yet)",
             "pressure(all)", {"panel"}),
-      later("reaction", "reaction(CLAMP | PIN)", "force that a clamp bears (not supported yet)",
-            "reaction(corner)", {"hold"}),
+      {"reaction",
+       "reaction(CLAMP | PIN)",
+       "force with which a clamp or pin holds the cloth, in space",
+       "reaction(corner).y",
+       {"hold"},
+       1,
+       run_reaction,
+       false,
+       true},
       later("slope", "slope(CURVE, RANGE)", "slope of a recorded curve (not supported yet)",
             "slope(\"pull.csv\", 0 .. 1)", {"curve", "range"}),
       later("loop_width", "loop_width(CURVE, AT)", "width of a recorded loop (not supported yet)",

@@ -250,6 +250,25 @@ ExpectResult evaluate_expect(Interpretation& interpretation, const Act& act, con
   return result;
 }
 
+CurvePoint evaluate_curve(Interpretation& interpretation, const RecordAct& act, const DrapeMeasures& measures) {
+  CurvePoint point;
+  Program& program = *interpretation.program;
+  Scope& scope = *static_cast<Scope*>(act.scope);
+  auto number = [&](const Expr& expr, double& value, std::string& unit) {
+    const MeasureValue found = measure_value("", eval(program, expr, scope));
+    if (!found.value)
+      fail(program, Message("G0306", "`" + std::string(program.sources.text(expr.span)) + "` is no number", expr.span)
+                        .help("a curve is drawn of numbers, such as `position(corner).y` or `reaction(jaw).y`"));
+    value = *found.value;
+    unit = found.unit;
+  };
+  point.diagnostics = ask(program, measures, [&] {
+    number(act.statement->operands[1], point.x, point.x_unit);
+    number(act.statement->operands[2], point.y, point.y_unit);
+  });
+  return point;
+}
+
 MeasureResult evaluate_measure(Interpretation& interpretation, const Act& act,
                                const DrapeMeasures& measures) {
   MeasureResult result;

@@ -69,10 +69,14 @@ struct ReleaseAct {
   int pin = -1;    ///< into Garment::pins
   int clamp = -1;  ///< into Scene::clamps
 };
+/// `record curve X, Y` or `record frames`, of the drapes for a time that follow.
 struct RecordAct {
-  std::string x, y;  ///< as written
+  bool frames = false;
+  std::string x, y;  ///< as written; of a curve
   double every = 0;  ///< s
-  std::string path;
+  std::string path;  ///< of frames: the name that each number is put into
+  const grammar::Statement* statement = nullptr;
+  void* scope = nullptr;  ///< opaque
 };
 /// `vary TARGET over VALUE, ...`: each value is a script of its own, made with InterpretOptions::study.
 struct VaryAct {
@@ -163,6 +167,9 @@ class DrapeMeasures {
   virtual std::optional<double> nodes(int) const { return std::nullopt; }
   /// Of a pin by its index in Garment::pins.
   virtual std::optional<Eigen::Vector3d> position(int pin) const = 0;
+  /// Force with which a pin or clamp holds the cloth, by its name, N.
+  virtual std::optional<Eigen::Vector3d> reaction(const std::string&) const { return std::nullopt; }
+  virtual std::optional<double> elapsed() const { return std::nullopt; }  ///< time of the motions, s
   /// Of a point of a panel, panel coordinates in m.
   virtual std::optional<Eigen::Vector3d> position(int panel, const design::Point2& point) const = 0;
 };
@@ -177,6 +184,14 @@ struct ExpectResult {
 };
 
 ExpectResult evaluate_expect(Interpretation& interpretation, const Act& act, const DrapeMeasures& measures);
+
+/// The two values of a recorded curve as it stands: SI numbers, or why there are none.
+struct CurvePoint {
+  double x = 0, y = 0;
+  std::string x_unit, y_unit;
+  grammar::Diagnostics diagnostics;
+};
+CurvePoint evaluate_curve(Interpretation& interpretation, const RecordAct& act, const DrapeMeasures& measures);
 
 /// Value of a `measure` that asks the drape.
 struct MeasureResult {

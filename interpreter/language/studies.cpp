@@ -116,19 +116,33 @@ void run_release(Program& program, const Item& item) {
 void run_record(Program& program, const Item& item) {
   const Statement& statement = *item.statement;
   Clauses clauses(program, statement, *item.scope);
-  if (statement.operands.size() != 3 || statement.operands[0].kind != ExprKind::name ||
-      statement.operands[0].text != "curve")
-    fail(program,
-         Message("G0312", "`record` takes `curve` and two values", statement.keyword.span)
-             .help("as in `record curve position(jaw).y, reaction(jaw) every 10 ms as \"pull.csv\"`"));
+  auto says = [&](const char* word) {
+    return !statement.operands.empty() && statement.operands[0].kind == ExprKind::name && statement.operands[0].text == word;
+  };
   RecordAct act;
+  act.frames = says("frames") && statement.operands.size() == 1;
+  if (!act.frames && (!says("curve") || statement.operands.size() != 3))
+    fail(program,
+         Message("G0312", "`record` takes `curve` and two values, or `frames`", statement.keyword.span)
+             .help("as in `record curve position(jaw).y, reaction(jaw).y every 10 ms as \"pull.csv\"`"));
+  act.statement = &statement;
+  act.scope = item.scope;
   clauses.need("every");
   act.every = *clauses.quantity("every");
   const BoundClause& as = clauses.need("as");
   act.path = eval_text(program, clauses.value(as), *as.scope, "`as`");
   clauses.finish();
   writable_path(program, act.path, clauses.value(as).span);
-  if (act.path.size() < 5 || act.path.compare(act.path.size() - 4, 4, ".csv") != 0)
+  auto ends = [&](std::string_view ending) { return act.path.size() > ending.size() && act.path.ends_with(ending); };
+  if (act.frames && !(ends(".obj") || ends(".ply") || ends(".glb") || ends(".csv") || ends(".png")))
+    fail(program,
+         Message("G1321", "frames are written as shapes, `" + act.path + "` is none", clauses.value(as).span)
+             .help("give it a name that ends in `.obj`, `.ply`, `.glb`, `.csv` or `.png`"));
+  if (act.frames) {
+    program.acts.push_back({act, statement.span});
+    return;
+  }
+  if (!ends(".csv"))
     fail(program,
          Message("G1321", "a curve is written as a table, `" + act.path + "` is none", clauses.value(as).span)
              .help("give it a name that ends in `.csv`"));

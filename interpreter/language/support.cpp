@@ -199,8 +199,11 @@ class SupportCheck {
 }  // namespace
 
 void check_support(Program& program) {
-  const bool drapes = std::any_of(program.acts.begin(), program.acts.end(),
-                                  [](const Act& act) { return std::holds_alternative<DrapeAct>(act.act); });
+  // What is let fall for a time may fall.
+  const bool drapes = std::any_of(program.acts.begin(), program.acts.end(), [](const Act& act) {
+    const auto* drape = std::get_if<DrapeAct>(&act.act);
+    return drape != nullptr && drape->until_rest;
+  });
   if (!drapes || program.garment.gravity.norm() == 0) return;
   SupportCheck(program).run();
 }

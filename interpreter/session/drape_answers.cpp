@@ -88,6 +88,12 @@ std::optional<double> DrapeAnswers::penetrations() const {
   return static_cast<double>(report_.self_intersections + report_.body_intersections + report_.inside_body);
 }
 
+std::optional<Eigen::Vector3d> DrapeAnswers::reaction(const std::string& holder) const {
+  for (std::size_t h = 0; h < std::min(model_.holders.size(), report_.reactions.size()); ++h)
+    if (model_.holders[h].name == holder) return report_.reactions[h];
+  return std::nullopt;
+}
+
 /// A pin holds the particle next to its point: that is where it is.
 std::optional<Eigen::Vector3d> DrapeAnswers::position(int pin) const {
   if (pin < 0 || pin >= static_cast<int>(garment_.pins.size())) return std::nullopt;

@@ -20,6 +20,8 @@ class DrapeAnswers final : public interpreter::DrapeMeasures {
   std::optional<double> clearance(const std::string& panel) const override;
   std::optional<double> energy() const override { return report_.energy; }
   std::optional<double> penetrations() const override;
+  std::optional<Eigen::Vector3d> reaction(const std::string& holder) const override;
+  std::optional<double> elapsed() const override { return state_.time; }
   std::optional<double> drape_coefficient(int panel) const override;
   std::optional<double> nodes(int panel) const override;
   std::optional<Eigen::Vector3d> position(int pin) const override;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "interpreter/session/drape_act.hpp"
 #include "interpreter/session/models.hpp"
 #include "interpreter/session/result_files.hpp"
 #include "interpreter/session/session.hpp"
@@ -15,6 +16,7 @@
 #include "runtime/simulator/certificate.hpp"
 #include "runtime/simulator/drape_again.hpp"
 #include "runtime/simulator/drape_levels.hpp"
+#include "runtime/simulator/moved_bodies.hpp"
 
 namespace garment::session {
 namespace {
@@ -22,7 +24,7 @@ namespace {
 using interpreter::Act;
 
 Outcome outcome_of(simulator::DrapeStatus status) {
-  if (status == simulator::DrapeStatus::at_rest) return Outcome::done;
+  if (status == simulator::DrapeStatus::at_rest || status == simulator::DrapeStatus::ran) return Outcome::done;
   return status == simulator::DrapeStatus::interrupted ? Outcome::interrupted : Outcome::failed;
 }
 
@@ -100,9 +102,7 @@ Answer Session::perform(Evaluated& evaluated, const Act& act) {
     return refuse("G1504", "there is no model to drape or ask", help);
   }
   if (const auto* drape = std::get_if<interpreter::DrapeAct>(&act.act)) {
-    if (!drape->until_rest)
-      return refuse("G0804", "`drape for` a time is not supported yet", "write `drape until rest`");
-    return drape_now(drape->settle);
+    return drape->until_rest ? drape_now(drape->settle) : move_now(evaluated, *drape);
   }
   if (const auto* save = std::get_if<interpreter::SaveAct>(&act.act)) return save_files(*save);
   if (const auto* released = std::get_if<interpreter::ReleaseAct>(&act.act)) {
@@ -111,7 +111,8 @@ Answer Session::perform(Evaluated& evaluated, const Act& act) {
                                       : garment.scene.clamps[static_cast<std::size_t>(released->clamp)].name);
   }
   if (std::holds_alternative<interpreter::RecordAct>(act.act))
-    return refuse("G1325", "a curve cannot be recorded yet", "leave `record` out for now");
+    return refuse("G1325", "the prompt records no curves",
+                  "`:save` the script with its `record` and its `drape for`, and `garment run` it");
   const auto* vary = std::get_if<interpreter::VaryAct>(&act.act);
   if (vary != nullptr)
     return refuse("G1504",
@@ -125,7 +126,9 @@ Answer Session::perform(Evaluated& evaluated, const Act& act) {
   if (!stage_.shape.draped)
     return refuse("G0325", "nothing was draped yet, so there is nothing to ask",
                   "type `drape until rest` first");
-  const DrapeAnswers answers(evaluated.result.garment, evaluated.result.bodies, *stage_.modelled->model,
+  const std::vector<body::Body> bodies =
+      simulator::bodies_at(evaluated.result.bodies, *stage_.modelled->model, stage_.shape.state->time);
+  const DrapeAnswers answers(evaluated.result.garment, bodies, *stage_.modelled->model,
                              *stage_.shape.state, stage_.shape.report);
   if (measure != nullptr) {
     const interpreter::MeasureResult r = interpreter::evaluate_measure(evaluated.result, act, answers);
@@ -145,6 +148,31 @@ Answer Session::drape_now(simulator::Settle settle) {
   next.entry = acts_entry_;
   next.shape.settle = settle;
   answer.outcome = drape(next, stage_.shape.draped || stage_.shape.carried, answer.text);
+  take(std::move(next));
+  return answer;
+}
+
+/// Lets the garment move for a time, from where it hangs.
+Answer Session::move_now(Evaluated& evaluated, const interpreter::DrapeAct& act) {
+  const double begun = host_.seconds();
+  Answer answer;
+  Stage next = stage_;
+  next.entry = acts_entry_;
+  const model::Model& model = *next.modelled->model;
+  DrapeScene scene{evaluated.result, next.evaluated->result.bodies, model, true};
+  scene.settings.progress = options_.progress;
+  scene.settings.interrupted = options_.interrupted;
+  auto state = std::make_shared<model::State>(*next.shape.state);
+  next.shape.report = perform_drape(act, scene, *state);
+  next.shape.draped = true;
+  next.shape.carried = false;
+  next.shape.state = std::move(state);
+  answer.text = shown(interpreter::to_diagnostics(next.shape.report.findings, evaluated.result.origins), evaluated.sources,
+                      Severity::warning);
+  answer.text += fmt::format("{}: {} s in {} steps{}\n", results::status_name(next.shape.report.status),
+                             format_number(next.shape.report.motion.seconds, 4), next.shape.report.steps,
+                             seconds_since(begun));
+  answer.outcome = outcome_of(next.shape.report.status);
   take(std::move(next));
   return answer;
 }
@@ -177,6 +205,17 @@ Outcome Session::drape(Stage& stage, bool from_present, std::string& text) {
   settings.progress = options_.progress;
   settings.interrupted = options_.interrupted;
   auto state = std::make_shared<model::State>(*stage.shape.state);
+  if (!model.motions.empty()) {  // what stands on paths stands where it has come to
+    const interpreter::DrapeAct act{true, stage.shape.settle, 0};
+    stage.shape.report = perform_drape(act, {result, result.bodies, model, from_present, settings}, *state);
+    stage.shape.draped = true;
+    stage.shape.carried = false;
+    text += shown(interpreter::to_diagnostics(stage.shape.report.findings, result.origins), stage.evaluated->sources,
+                  Severity::warning);
+    text += summary(model, *state, stage.shape.report) + seconds_since(begun) + '\n';
+    stage.shape.state = std::move(state);
+    return outcome_of(stage.shape.report.status);
+  }
   std::vector<model::Model> coarse;
   if (!from_present || simulator::far_from_rest(model, state->position, stage.shape.strained))
     coarse = coarse_models(result.garment, result.bodies, model, !from_present);
@@ -215,7 +254,9 @@ Answer Session::save_files(const interpreter::SaveAct& act) {
   const interpreter::Interpretation& result = stage_.evaluated->result;
   for (const std::string& name : act.paths) {
     const ResultFile file =
-        make_result_file(name, result.garment, result.bodies, *stage_.modelled->model, *stage_.shape.state);
+        make_result_file(name, result.garment,
+                         simulator::bodies_at(result.bodies, *stage_.modelled->model, stage_.shape.state->time),
+                         *stage_.modelled->model, *stage_.shape.state);
     if (!file.bytes) return {Outcome::failed, answer.text + fault("G0905", file.message, file.help)};
     const std::string path = (std::filesystem::path(out_folder()) / name).string();
     std::vector<std::string> granted = options_.allow_write;

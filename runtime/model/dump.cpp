@@ -65,6 +65,14 @@ std::string objects_text(const std::vector<T>& values, const F& one) {
   return text + (values.empty() ? "]" : "\n  ]");
 }
 
+std::string motion_text(const Motion& m) {
+  std::string poses;
+  for (const Pose& p : m.poses)
+    poses += fmt::format("{}{{\"time\": {}, \"move\": {}, \"turn\": {}}}", poses.empty() ? "" : ", ", number(p.time),
+                         row_text(p.move), row_text(p.turn));
+  return fmt::format(R"({{"name": {}, "body": {}, "pivot": {}, "poses": [{}]}})", quoted(m.name), m.body, row_text(m.pivot), poses);
+}
+
 }  // namespace
 
 std::uint64_t state_hash(const State& state) {
@@ -95,6 +103,17 @@ std::uint64_t model_hash(const Model& model) {
     hash.add(s.length);
   }
   for (int k = 0; k < 3; ++k) hash.add(model.gravity[k]);
+  for (const Motion& m : model.motions) {
+    hash.add(m.body);
+    for_each_number(m.pivot, [&](double x) { hash.add(x); });
+    for (const Pose& pose : m.poses) {
+      hash.add(pose.time);
+      for (const Vector3d* v : {&pose.move, &pose.turn}) for_each_number(*v, [&](double x) { hash.add(x); });
+    }
+  }
+  if (model.air.still()) return hash.value;
+  for_each_number(model.air.wind, [&](double x) { hash.add(x); });
+  for (double x : {model.air.gust, model.air.drag}) hash.add(x);
   return hash.value;
 }
 
@@ -182,6 +201,15 @@ std::string dump_json(const Model& model) {
                          return fmt::format(R"({{"name": {}, "mass": {}}})", quoted(c.name), number(c.mass));
                        }) +
           ",\n";
+  text += "  \"motions\": " + objects_text(model.motions, motion_text) + ",\n";
+  text += "  \"holders\": " +
+          objects_text(model.holders,
+                       [](const Holder& h) {
+                         return fmt::format(R"({{"name": {}, "particles": {}}})", quoted(h.name), list_text(h.particles));
+                       }) +
+          ",\n";
+  text += fmt::format("  \"air\": {{\"wind\": {}, \"gust\": {}, \"drag\": {}}},\n", row_text(model.air.wind),
+                      number(model.air.gust), number(model.air.drag));
   text += "  \"gravity\": " + row_text(model.gravity) + ",\n";
   text += "  \"hash\": \"" + hash_text(model_hash(model)) + "\"\n}\n";
   return text;

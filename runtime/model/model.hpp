@@ -70,9 +70,46 @@ struct RegionValues {
 /// together without tearing at the cloth.
 inline constexpr double kTieReach = 5e-3;
 
+/// The same of a rod, m: stiffer than any button, it would else drag its ends through the cloth.
+inline constexpr double kRodReach = 0.5e-3;
+
 enum class HoldKind : std::uint8_t {
   point,   ///< stays at `hold_point`
   plane,   ///< stays in the plane through `hold_point` with normal `hold_normal` (sliding along a level)
+};
+
+/// Kelvin time tau of cloth whose fabric states none, s.
+inline constexpr double kUsualDamping = 0.02;
+
+/// A rigid pose at a time: turned by Rz Ry Rx about the motion's pivot, then moved.
+struct Pose {
+  double time = 0;              ///< s
+  Vector3d move{0, 0, 0};       ///< m
+  Vector3d turn{0, 0, 0};       ///< rad
+};
+
+/// A rigid motion in time: between its poses moves and turns run straight, before the first and after the last it stands.
+struct Motion {
+  std::string name;
+  OriginId origin;
+  Index body = -1;              ///< index into the bodies; -1: of holds (`moved_by`)
+  Vector3d pivot{0, 0, 0};      ///< m
+  std::vector<Pose> poses;      ///< at least one, times ascend
+};
+
+/// The particles that a pin or clamp holds: for its reaction. Edges attached to a level have none.
+struct Holder {
+  std::string name;
+  OriginId origin;
+  std::vector<Index> particles; ///< ascending
+};
+
+/// The air about the cloth; without wind and without drag there is none.
+struct Air {
+  Vector3d wind{0, 0, 0};       ///< m/s
+  double gust = 0;              ///< by what share it gets stronger at most
+  double drag = 0;              ///< coefficient of a sheet square to the flow
+  bool still() const { return drag == 0; }
 };
 
 /// How the arrays speak of one another:
@@ -154,12 +191,35 @@ struct Model {
   // --- padding: what lies between the cloth and the bodies under it
   std::vector<Index> pad_particle;               ///< ascending
   std::vector<double> pad_thickness;             ///< m
+  // --- rods: ties that push as well where their places come nearer than the length, E = k g^2 / 2 for |g| < kRodReach
+  std::vector<Index> rod_tie;                    ///< index into ties, ascending
+  // --- loads: constant forces in space
+  std::vector<Index> load_particle;
+  std::vector<Vector3d> load_force;              ///< N
+  // --- pressure from the back of triangles: a force p A n, with the area and the normal that the triangle has as it lies
+  std::vector<Index> pressed_triangle;           ///< ascending
+  std::vector<double> pressed_pascals;           ///< Pa; negative from the face
+  // --- friction of a particle with one of the bodies, in place of the geometric mean of cloth and body
+  std::vector<Index> rub_particle;
+  std::vector<Index> rub_body;                   ///< index into the bodies that are given with the model
+  std::vector<double> rub_factor;
+  // --- friction of cloth with cloth, stated for pairs of panels
+  std::vector<Indices<2>> rub_panels;            ///< panel ids, the lower first
+  std::vector<double> rub_panels_factor;
+  // --- Kelvin time of the cloth at each particle; none where it is kUsualDamping everywhere. An element has the mean of its own
+  std::vector<double> damping;                   ///< tau, s [n_particles] or empty
+  // --- holds that move: their place is that of the motion at the time, `hold_point` that of the start
+  std::vector<Index> moved_hold;                 ///< index into holds, ascending
+  std::vector<Index> moved_by;                   ///< index into motions
   // --- tables
   std::vector<TensileLaw> laws;
   std::vector<PanelRange> panels;
   std::vector<SeamChain> seams;
   std::vector<Closure> closures;
   std::vector<RegionValues> regions;
+  std::vector<Motion> motions;
+  std::vector<Holder> holders;
+  Air air;
   Vector3d gravity{0, -9.80665, 0};
 
   std::size_t n_particles() const { return mass.size(); }

@@ -27,6 +27,14 @@ enum class Rows {
   fold_entry,
   twist,
   pad,
+  rod,
+  load,
+  pressed,
+  rub,
+  rub_panels,
+  damped,
+  moved,
+  motion,
   panel,
   law,
   closure,
@@ -43,6 +51,13 @@ inline bool is_rare(Rows rows) {
     case Rows::fold_entry:
     case Rows::twist:
     case Rows::pad:
+    case Rows::rod:
+    case Rows::load:
+    case Rows::pressed:
+    case Rows::rub:
+    case Rows::rub_panels:
+    case Rows::damped:
+    case Rows::moved:
       return true;
     default:
       return false;
@@ -88,6 +103,22 @@ inline std::size_t row_count(const Model& m, Rows rows) {
       return m.twist_cell.size();
     case Rows::pad:
       return m.pad_particle.size();
+    case Rows::rod:
+      return m.rod_tie.size();
+    case Rows::load:
+      return m.load_particle.size();
+    case Rows::pressed:
+      return m.pressed_triangle.size();
+    case Rows::rub:
+      return m.rub_particle.size();
+    case Rows::rub_panels:
+      return m.rub_panels.size();
+    case Rows::damped:
+      return m.damping.empty() ? 0 : m.mass.size();
+    case Rows::moved:
+      return m.moved_hold.size();
+    case Rows::motion:
+      return m.motions.size();
     case Rows::panel:
       return m.panels.size();
     case Rows::law:
@@ -156,5 +187,18 @@ inline std::size_t row_count(const Model& m, Rows rows) {
   X(twist_cell,       twist,     cell,      any,          "")      \
   X(twist_rest,       twist,     none,      any,          "1/m")   \
   X(pad_particle,     pad,       particle,  any,          "")      \
-  X(pad_thickness,    pad,       none,      positive,     "m")
+  X(pad_thickness,    pad,       none,      positive,     "m")     \
+  X(rod_tie,          rod,       tie,       any,          "")      \
+  X(load_particle,    load,      particle,  any,          "")      \
+  X(load_force,       load,      none,      any,          "N")     \
+  X(pressed_triangle, pressed,   triangle,  any,          "")      \
+  X(pressed_pascals,  pressed,   none,      any,          "Pa")    \
+  X(rub_particle,     rub,       particle,  any,          "")      \
+  X(rub_body,         rub,       none,      any,          "")      \
+  X(rub_factor,       rub,       none,      not_negative, "")      \
+  X(rub_panels,       rub_panels, panel,    any,          "")      \
+  X(rub_panels_factor, rub_panels, none,    not_negative, "")      \
+  X(damping,          damped,    none,      not_negative, "s")     \
+  X(moved_hold,       moved,     hold,      any,          "")      \
+  X(moved_by,         moved,     motion,    any,          "")
 // clang-format on

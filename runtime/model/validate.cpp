@@ -84,6 +84,22 @@ class Check {
       if (!(c.mass >= 0 && std::isfinite(c.mass))) return fail(fmt::format("closure `{}` has no mass", c.name));
   }
 
+  void motions() {
+    auto fail_of = [&](const Motion& m) { fail(fmt::format("the poses of motion `{}` do not follow each other", m.name)); };
+    for (const Motion& m : m_.motions) {
+      bool good = !m.poses.empty() && m.pivot.allFinite();
+      for (std::size_t k = 0; good && k < m.poses.size(); ++k)
+        good = std::isfinite(m.poses[k].time) && m.poses[k].move.allFinite() && m.poses[k].turn.allFinite() &&
+               (k == 0 || m.poses[k].time > m.poses[k - 1].time);
+      if (!good) return fail_of(m);
+    }
+    for (const Holder& h : m_.holders)
+      for (Index i : h.particles)
+        if (i < 0 || static_cast<std::size_t>(i) >= m_.n_particles())
+          return fail(fmt::format("holder `{}` names no particle", h.name));
+    if (!m_.air.wind.allFinite() || !(m_.air.drag >= 0 && m_.air.gust >= 0)) fail("the air is out of range");
+  }
+
   void laws() {
     for (std::size_t k = 0; k < m_.laws.size(); ++k) {
       const TensileLaw& law = m_.laws[k];
@@ -120,6 +136,7 @@ Findings validate(const Model& model) {
   check.ranges();
   check.laws();
   check.ties();
+  check.motions();
   return std::move(check.findings);
 }
 

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
+
+#include "runtime/modeller/scene_loads.hpp"
 
 namespace garment::modeller {
 namespace {
@@ -18,12 +21,14 @@ class Holds {
  public:
   explicit Holds(std::size_t n_particles) : slot_(n_particles, -1) {}
 
-  void add(Index particle, HoldKind kind, const Vector3d& point, model::Model& model) {
+  /// `motion`: what moves the hold, -1 for one that stays.
+  void add(Index particle, HoldKind kind, const Vector3d& point, model::Model& model, Index motion = -1) {
     int& slot = slot_[particle];
     if (slot >= 0) {
       if (model.hold_kind[slot] == HoldKind::plane && kind == HoldKind::point) {
         model.hold_kind[slot] = kind;
         model.hold_point[slot] = point;
+        motion_[slot] = motion;
       }
       return;
     }
@@ -32,10 +37,27 @@ class Holds {
     model.hold_kind.push_back(kind);
     model.hold_point.push_back(point);
     model.hold_normal.emplace_back(0, 1, 0);
+    motion_.push_back(motion);
+  }
+
+  /// Who holds these particles: for its reaction.
+  void tell(const std::string& name, OriginId origin, std::vector<Index> particles, model::Model& model) const {
+    std::sort(particles.begin(), particles.end());
+    particles.erase(std::unique(particles.begin(), particles.end()), particles.end());
+    model.holders.push_back({name, origin, std::move(particles)});
+  }
+
+  void write_motions(model::Model& model) const {
+    for (std::size_t h = 0; h < motion_.size(); ++h) {
+      if (motion_[h] < 0) continue;
+      model.moved_hold.push_back(static_cast<Index>(h));
+      model.moved_by.push_back(motion_[h]);
+    }
   }
 
  private:
   std::vector<int> slot_;
+  std::vector<Index> motion_;  // of each hold
 };
 
 std::optional<double> level_height(const design::Attachment& a, const std::vector<body::Body>& bodies,
@@ -71,13 +93,9 @@ void add_pin(const design::Pin& pin, const std::vector<MeshedPanel>& panels, Hol
                         "name a declared panel and a point on it"});
     return;
   }
-  const MeshedPanel& p = panels[pin.panel];
-  std::size_t nearest = 0;
-  for (std::size_t v = 1; v < p.mesh.at.size(); ++v)
-    if ((p.mesh.at[v] - pin.point).squaredNorm() < (p.mesh.at[nearest] - pin.point).squaredNorm())
-      nearest = v;
-  Index particle = model.vertex_particle[p.first_vertex + nearest];
+  const Index particle = particle_next_to(panels, model, pin.panel, pin.point);
   holds.add(particle, HoldKind::point, model.start[particle], model);
+  holds.tell(pin.name, pin.origin, {particle}, model);
 }
 
 /// True where the region reaches: its border counts, whatever the last bits of a coordinate say.
@@ -162,25 +180,64 @@ class Jaws {
   std::vector<bool> held_;
 };
 
-/// What lies between the jaws stays where it starts.
-void add_clamp(const design::Clamp& clamp, const design::Garment& garment,
-               const std::vector<BorderPanel>& outlines, const Borders& borders,
-               const std::vector<MeshedPanel>& panels, Holds& holds, model::Model& model) {
-  for (const design::EdgePart& part : clamp.parts) {
-    for (int v : vertices_on(part, outlines[part.panel], borders.panels[part.panel])) {
-      const Index particle = model.vertex_particle[panels[part.panel].first_vertex + v];
-      holds.add(particle, HoldKind::point, model.start[particle], model);
-    }
-  }
-  if (clamp.region < 0) return;
+/// The particles between the jaws of a clamp; where they hold a region they stiffen the cloth at its border.
+std::vector<Index> between_jaws(const design::Clamp& clamp, const design::Garment& garment,
+                                const std::vector<BorderPanel>& outlines, const Borders& borders,
+                                const std::vector<MeshedPanel>& panels, model::Model& model) {
+  std::vector<Index> held;
+  for (const design::EdgePart& part : clamp.parts)
+    for (int v : vertices_on(part, outlines[part.panel], borders.panels[part.panel]))
+      held.push_back(model.vertex_particle[panels[part.panel].first_vertex + v]);
+  if (clamp.region < 0) return held;
   for (const design::RegionPart& part : garment.regions[clamp.region].parts) {
     const design::RegionTest test(garment.panels[part.panel], part.shape);
     Jaws jaws(test, panels[part.panel], model);
     jaws.reach_on(model);
     jaws.stiffen(model);
     for (std::size_t i = 0; i < model.n_particles(); ++i)
-      if (jaws.held()[i]) holds.add(static_cast<Index>(i), HoldKind::point, model.start[i], model);
+      if (jaws.held()[i]) held.push_back(static_cast<Index>(i));
   }
+  return held;
+}
+
+/// The motion of a clamp turns about the middle of the box round what it holds: the same place on any grid.
+Index add_motion(const design::Path& path, const std::vector<Index>& held, model::Model& model) {
+  Vector3d low = Vector3d::Constant(1e300), high = -low;
+  for (const Index i : held) {
+    low = low.cwiseMin(model.start[i]);
+    high = high.cwiseMax(model.start[i]);
+  }
+  model::Motion motion{path.name, path.origin, -1, 0.5 * (low + high), {}};
+  for (const design::Pose& p : path.poses) motion.poses.push_back({p.time, p.move, p.turn});
+  model.motions.push_back(std::move(motion));
+  return static_cast<Index>(model.motions.size() - 1);
+}
+
+/// What lies between the jaws stays where it starts, or moves with them.
+void add_clamp(const design::Clamp& clamp, const design::Garment& garment,
+               const std::vector<BorderPanel>& outlines, const Borders& borders,
+               const std::vector<MeshedPanel>& panels, Holds& holds, model::Model& model) {
+  std::vector<Index> held = between_jaws(clamp, garment, outlines, borders, panels, model);
+  const bool moves = clamp.path >= 0 && !held.empty();
+  const Index motion = moves ? add_motion(garment.scene.paths[clamp.path], held, model) : -1;
+  for (const Index particle : held) holds.add(particle, HoldKind::point, model.start[particle], model, motion);
+  holds.tell(clamp.name, clamp.origin, std::move(held), model);
+}
+
+void add_body_motions(const design::Garment& garment, model::Model& model) {
+  for (const design::Path& path : garment.scene.paths) {
+    if (path.body < 0) continue;
+    model::Motion motion{path.name, path.origin, path.body, garment.bodies[path.body].position, {}};
+    for (const design::Pose& p : path.poses) motion.poses.push_back({p.time, p.move, p.turn});
+    model.motions.push_back(std::move(motion));
+  }
+}
+
+/// The motion of a body; -1 where it stands.
+Index motion_of(const std::string& body, const design::Garment& garment, const model::Model& model) {
+  for (std::size_t m = 0; m < model.motions.size(); ++m)
+    if (model.motions[m].body >= 0 && garment.bodies[model.motions[m].body].name == body) return static_cast<Index>(m);
+  return -1;
 }
 
 }  // namespace
@@ -189,6 +246,7 @@ void add_holds(const design::Garment& garment, const std::vector<body::Body>& bo
                const std::vector<BorderPanel>& outlines, const Borders& borders,
                const std::vector<MeshedPanel>& panels, model::Model& model, Findings& findings) {
   Holds holds(model.n_particles());
+  add_body_motions(garment, model);
   for (const design::Attachment& a : garment.attachments) {
     std::optional<double> height;
     if (a.slide) {
@@ -209,13 +267,26 @@ void add_holds(const design::Garment& garment, const std::vector<body::Body>& bo
         Index particle = model.vertex_particle[panels[part.panel].first_vertex + v];
         Vector3d point = model.start[particle];
         if (height) point.y() = *height;
-        holds.add(particle, a.slide ? HoldKind::plane : HoldKind::point, point, model);
+        holds.add(particle, a.slide ? HoldKind::plane : HoldKind::point, point, model, motion_of(a.body, garment, model));
       }
     }
   }
   for (const design::Clamp& clamp : garment.scene.clamps)
     add_clamp(clamp, garment, outlines, borders, panels, holds, model);
   for (const design::Pin& pin : garment.pins) add_pin(pin, panels, holds, model, findings);
+  holds.write_motions(model);
+}
+
+void take_holds(const model::Model& from, model::Model& model) {
+  model.hold_particle = from.hold_particle;
+  model.hold_kind = from.hold_kind;
+  model.hold_point = from.hold_point;
+  model.hold_normal = from.hold_normal;
+  model.bend_rigidity = from.bend_rigidity;  // jaws stiffen the cloth where it leaves them
+  model.moved_hold = from.moved_hold;
+  model.moved_by = from.moved_by;
+  model.motions = from.motions;
+  model.holders = from.holders;
 }
 
 }  // namespace garment::modeller

@@ -11,6 +11,7 @@
 #include "runtime/modeller/bending.hpp"
 #include "runtime/modeller/closures.hpp"
 #include "runtime/modeller/cloth_fields.hpp"
+#include "runtime/modeller/damping.hpp"
 #include "runtime/modeller/folding.hpp"
 #include "runtime/modeller/holds.hpp"
 #include "runtime/modeller/inner_lines.hpp"
@@ -18,6 +19,7 @@
 #include "runtime/modeller/placement.hpp"
 #include "runtime/modeller/pressing.hpp"
 #include "runtime/modeller/region_values.hpp"
+#include "runtime/modeller/scene_loads.hpp"
 #include "runtime/modeller/sewing.hpp"
 #include "runtime/modeller/twins.hpp"
 #include "runtime/modeller/unmodelled.hpp"
@@ -195,6 +197,7 @@ ModelResult build_model(const design::Garment& garment, const std::vector<body::
   Findings unreached;
   add_creases(garment, panels, outlines, model, unreached);
   add_pads(garment, panels, model, unreached);
+  add_damping(panels, fields, model);
   if (options.coarsen <= 1) findings.insert(findings.end(), unreached.begin(), unreached.end());
   // What a tack goes to depends on where the panels lie: the model must not depend on whether they were dressed for it.
   const bool dress = options.dress || !garment.tacks.empty();
@@ -202,6 +205,7 @@ ModelResult build_model(const design::Garment& garment, const std::vector<body::
   add_closures(garment, model, findings);
   add_seam_ties(sides, model, findings);
   add_holds(garment, bodies, outlines, borders, panels, model, findings);
+  add_scene_loads(garment, bodies, panels, model, findings);
   if (!has_errors(findings)) result.model = std::move(model);
   return result;
 }

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "runtime/modeller/unmodelled_cloth.hpp"
-#include "runtime/modeller/unmodelled_scene.hpp"
 
 namespace garment::modeller {
 namespace {
@@ -36,7 +35,6 @@ class Unmodelled {
 Findings find_unmodelled(const design::Garment& garment, Severity severity) {
   Unmodelled out(severity);
   find_unmodelled_cloth(garment, [&out](const std::string& what, OriginId origin) { out.say(what, origin); });
-  find_unmodelled_scene(garment, [&out](const std::string& what, OriginId origin) { out.say(what, origin); });
   return out.take();
 }
 

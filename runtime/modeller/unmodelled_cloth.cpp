@@ -22,8 +22,6 @@ void find_unmodelled_cloth(const design::Garment& garment, const SayUnmodelled& 
     }
   for (const design::Pad& pad : garment.pads)
     if (pad.side == design::Facing::face) say("pad `" + pad.name + "` on the face", pad.origin);
-  for (const design::Region& region : garment.regions)
-    if (region.factors.damping != 1) say("`damping` of region `" + region.name + "`", region.origin);
 }
 
 }  // namespace garment::modeller

@@ -77,6 +77,27 @@ Json findings(const Findings& all) {
   return out;
 }
 
+/// Of a drape for a time; null of one to rest.
+Json motion(const simulator::MotionReport& m) {
+  if (!(m.seconds > 0)) return nullptr;
+  const simulator::EnergyBalance& b = m.balance;
+  return {{"seconds", m.seconds},
+          {"steps", m.steps},
+          {"iterations", m.iterations},
+          {"least_step", m.least_step},
+          {"largest_step", m.largest_step},
+          {"stable_step", m.stable_step > 0 ? Json(m.stable_step) : Json(nullptr)},
+          {"energy",
+           {{"kinetic", b.kinetic},
+            {"stored", b.stored},
+            {"kinetic_at_start", b.kinetic_start},
+            {"stored_at_start", b.stored_start},
+            {"work", b.work},
+            {"damping", b.damping},
+            {"friction", b.friction},
+            {"numerical", b.numerical}}}};
+}
+
 Json drape(const Report& r) {
   return {{"settle", settle_name(r.settle)},
           {"status", status_name(r.drape.status)},
@@ -87,6 +108,7 @@ Json drape(const Report& r) {
           {"self_intersections", r.drape.self_intersections},
           {"body_intersections", r.drape.body_intersections},
           {"inside_body", r.drape.inside_body},
+          {"motion", motion(r.drape.motion)},
           {"findings", findings(r.drape.findings)}};
 }
 
@@ -153,6 +175,8 @@ const char* status_name(simulator::DrapeStatus status) {
       return "tangled";
     case simulator::DrapeStatus::diverged:
       return "diverged";
+    case simulator::DrapeStatus::ran:
+      return "ran for its time";
   }
   return "";
 }

@@ -60,6 +60,13 @@ BodyContact::BodyContact(const model::Model& model, const std::vector<body::Body
       memory_(model.n_particles()),
       soundings_(bodies.size(), std::vector<Sounding>(model.n_particles())) {
   for (std::size_t k = 0; k < model.pad_particle.size(); ++k) padding_[model.pad_particle[k]] = model.pad_thickness[k];
+  for (const body::Body& body : bodies) {
+    std::vector<double>& of_body = friction_.emplace_back(model.n_particles());
+    for (std::size_t i = 0; i < of_body.size(); ++i) of_body[i] = std::sqrt(body.friction * model.friction[i]);
+  }
+  for (std::size_t k = 0; k < model.rub_particle.size(); ++k)
+    if (static_cast<std::size_t>(model.rub_body[k]) < friction_.size())
+      friction_[model.rub_body[k]][model.rub_particle[k]] = model.rub_factor[k];
 }
 
 void BodyContact::find(const Vectors& x) {
@@ -100,6 +107,7 @@ void BodyContact::next_step() {
 void BodyContact::find_of(std::size_t b, const Vectors& x) {
   const body::Body& body = bodies_[b];
   std::vector<Sounding>& soundings = soundings_[b];
+  const model::Placement* moved_by = placements_.empty() || placements_[b].is_identity() ? nullptr : &placements_[b];
   found_.resize(x.size());
   parallel_for(x.size(), 256, [&](std::size_t begin, std::size_t end) {
     std::vector<body::SurfacePoint> others;
@@ -108,20 +116,22 @@ void BodyContact::find_of(std::size_t b, const Vectors& x) {
       out.n = 0;
       const double offset = offset_ + extra_offset_[i] + model_.thickness[i] / 2 + padding_[i];
       Sounding& last = soundings[i];
-      const double moved = last.known ? (x[i] - last.at).norm() : 0;
+      const Vector3d at = moved_by ? moved_by->undo(x[i]) : x[i];
+      const double moved = last.known ? (at - last.at).norm() : 0;
       if (last.known && last.distance - moved > 2 * offset) continue;
       const double reach = last.known ? std::min(kSearch, std::abs(last.distance) + moved + 1e-6) : kSearch;
-      auto hit = body.closest(x[i], reach);
-      if (!hit && reach < kSearch) hit = body.closest(x[i], kSearch);
-      last = {x[i], hit ? hit->distance : kSearch, true};
+      auto hit = body.closest(at, reach);
+      if (!hit && reach < kSearch) hit = body.closest(at, kSearch);
+      last = {at, hit ? hit->distance : kSearch, true};
       if (!hit || hit->distance >= 2 * offset) continue;
-      const double friction = std::sqrt(body.friction * model_.friction[i]);
+      const double friction = friction_[b][i];
       auto add = [&](const body::SurfacePoint& s) {
+        const Vector3d way = moved_by ? Vector3d(moved_by->turn * s.push) : s.push;
         if (out.n < static_cast<int>(out.push.size()))
-          out.push[out.n++] = {i, s.push, s.push.dot(x[i]) - s.distance, offset, friction, false};
+          out.push[out.n++] = {i, way, way.dot(x[i]) - s.distance, offset, friction, false, static_cast<int>(b)};
       };
       add(*hit);
-      body.facing(x[i], 2 * offset, *hit, others);
+      body.facing(at, 2 * offset, *hit, others);
       for (const body::SurfacePoint& s : others) add(s);
     }
   });
@@ -147,7 +157,7 @@ void BodyContact::give_room(const Vectors& x, std::size_t begin, std::size_t end
       if (room > least || rate < kLeastWidening) continue;
       const double depth = std::min((least - room) / rate, kDeepestWedge), offset = 2 * kDeepestWedge;
       const Vector3d out = widening / rate;
-      narrow_.push_back({p.particle, out, out.dot(x[p.particle]) - offset + depth, offset, p.friction});
+      narrow_.push_back({p.particle, out, out.dot(x[p.particle]) - offset + depth, offset, p.friction, false, p.body});
     }
 }
 
@@ -172,6 +182,51 @@ void BodyContact::add_normal_forces(const Vectors& x, BodyFriction& friction) co
     const double depth = p.depth(x);
     if (depth > 0) friction.add_normal_force(p.particle, PushLaw(depth, p.offset, stiffness_).force * p.normal, p.friction);
   }
+}
+
+void BodyContact::place(const std::vector<model::Placement>& placements, BodyFriction& friction) {
+  const std::vector<model::Placement> before =
+      placements_.empty() ? std::vector<model::Placement>(bodies_.size()) : placements_;
+  placements_ = placements;
+  std::size_t last = static_cast<std::size_t>(-1);
+  for (const Push& p : pushes_) {
+    if (p.particle == last || p.body < 0) continue;
+    last = p.particle;
+    const model::Placement &from = before[p.body], &to = placements_[p.body];
+    friction.carry(p.particle, [&](const Vector3d& anchor) { return to.apply(from.undo(anchor)); });
+  }
+}
+
+double BodyContact::work_of_motion(const std::vector<model::Placement>& before, const Vectors& x,
+                                   const BodyFriction& friction) const {
+  double work = 0;
+  std::size_t last = static_cast<std::size_t>(-1);
+  for (const Push& p : pushes_) {
+    const double depth = p.depth(x);
+    if (depth <= 0 || p.body < 0 || placements_.empty()) continue;
+    const Vector3d way = x[p.particle] - before[p.body].apply(placements_[p.body].undo(x[p.particle]));
+    work += PushLaw(depth, p.offset, stiffness_).force * p.normal.dot(way);
+    if (p.particle != last) work += friction.force_on(p.particle, x[p.particle]).dot(way);
+    last = p.particle;
+  }
+  return work;
+}
+
+void BodyContact::pressed(const Vectors& x, std::vector<char>& out) const {
+  out.assign(x.size(), 0);
+  for (const Push& p : pushes_)
+    if (p.depth(x) > 0) out[p.particle] = 1;
+}
+
+double BodyContact::room(std::size_t i, const Vector3d& x) const {
+  double least = kSearch;
+  for (std::size_t b = 0; b < soundings_.size(); ++b) {
+    const Sounding& last = soundings_[b][i];
+    if (!last.known) return 0;
+    const Vector3d at = placements_.empty() ? x : placements_[b].undo(x);
+    least = std::min(least, last.distance - (at - last.at).norm());
+  }
+  return std::max(0.0, least);
 }
 
 std::size_t BodyContact::foresee(const Vectors& x, const Vectors& dx, const Holds& holds, Vectors& force,

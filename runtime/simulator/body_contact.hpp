@@ -6,6 +6,7 @@
 
 #include "runtime/body/body.hpp"
 #include "runtime/model/model.hpp"
+#include "runtime/model/motion.hpp"
 #include "runtime/simulator/block_matrix.hpp"
 #include "runtime/simulator/friction.hpp"
 
@@ -19,6 +20,7 @@ struct Push {
   double offset;           ///< m, distance at which the push begins
   double friction;         ///< Coulomb: geometric mean of cloth and body
   bool foreseen = false;   ///< not pressed yet, but the step would press it
+  int body = -1;
 
   double depth(const std::vector<Eigen::Vector3d>& x) const { return offset - (normal.dot(x[particle]) - plane); }
 };
@@ -64,6 +66,18 @@ class BodyContact {
   std::vector<double>& extra_offset() { return extra_offset_; }
   double stiffness() const { return stiffness_; }  ///< of one particle, N/m
 
+  /// Moves the bodies [n_bodies]: from where they are given to where they are now. Anchors of `friction` on a body go with it.
+  void place(const std::vector<model::Placement>& placements, BodyFriction& friction);
+  /// Work that the bodies have done on pressed cloth at x by going from `before` to where they are, by the forces at x, J.
+  double work_of_motion(const std::vector<model::Placement>& before, const std::vector<Eigen::Vector3d>& x,
+                        const BodyFriction& friction) const;
+  /// Those of the last `find`, of pressed particles and of particles near a body.
+  const std::vector<Push>& pushes() const { return pushes_; }
+  /// Which particles are pressed at x [n_particles].
+  void pressed(const std::vector<Eigen::Vector3d>& x, std::vector<char>& out) const;
+  /// Lower bound of the distance (m) from particle i at x to the surface of every body, as far as the last `find` knows.
+  double room(std::size_t i, const Eigen::Vector3d& x) const;
+
  private:
   struct Pushes {  // of one particle by one body
     std::array<Push, 3> push;
@@ -88,10 +102,12 @@ class BodyContact {
   double offset_, stiffness_;
   std::vector<double> extra_offset_;
   std::vector<double> padding_;  // of every particle, m
+  std::vector<std::vector<double>> friction_;  // Coulomb [n_bodies][n_particles]
   std::vector<Push> pushes_, narrow_;
   std::vector<Pushes> found_;
   std::vector<Memory> memory_;                    // [n_particles]
-  std::vector<std::vector<Sounding>> soundings_;  // [n_bodies][n_particles]
+  std::vector<std::vector<Sounding>> soundings_;  // [n_bodies][n_particles], in the body's own space
+  std::vector<model::Placement> placements_;  // [n_bodies]; none: all stand where they are given
 };
 
 }  // namespace garment::simulator

@@ -34,15 +34,6 @@ constexpr int kMostRepairs = 12;            // times that a garment at rest may 
 constexpr double kExtraOffset = 1e-3;       // m, by which a particle of a pierced part is pushed farther, each time
 constexpr double kMostExtraOffset = 20e-3;  // m
 
-double target_residual(Settle settle) {
-  switch (settle) {
-    case Settle::preview: return 0.3;
-    case Settle::equilibrium: return 0.05;
-    case Settle::exact: return 1e-6;
-  }
-  return 0.05;
-}
-
 bool all_finite(const Vectors& x) {
   return std::all_of(x.begin(), x.end(), [](const Vector3d& p) { return p.allFinite(); });
 }
@@ -283,6 +274,15 @@ void explain(Drape& d, const ContactMesh& all, const Vectors& force) {
 
 }  // namespace
 
+double target_residual(Settle settle) {
+  switch (settle) {
+    case Settle::preview: return 0.3;
+    case Settle::equilibrium: return 0.05;
+    case Settle::exact: return 1e-6;
+  }
+  return 0.05;
+}
+
 DrapeReport drape(const model::Model& model, const std::vector<body::Body>& bodies, model::State& state,
                   const DrapeSettings& settings) {
   DrapeReport report;
@@ -293,6 +293,7 @@ DrapeReport drape(const model::Model& model, const std::vector<body::Body>& bodi
   Vectors force;
   report.residual = way.relaxation().residual(d.x, force);
   report.energy = way.relaxation().energy(d.x);
+  report.reactions = way.relaxation().reactions();
   state.position = d.x;
   state.velocity.assign(d.x.size(), Vector3d::Zero());
   Certificate certificate = certify(model, state, bodies);

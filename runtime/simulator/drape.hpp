@@ -7,6 +7,7 @@
 #include "runtime/base/finding.hpp"
 #include "runtime/body/body.hpp"
 #include "runtime/model/model.hpp"
+#include "runtime/simulator/energy_balance.hpp"
 
 namespace garment::simulator {
 
@@ -18,7 +19,8 @@ struct DrapeProgress {
   double residual = 0;        ///< RMS net force over RMS particle weight
   double target = 0;          ///< residual at which the garment rests
   double largest_step = 0;    ///< m, of the last step
-  const char* phase = "";     ///< "dressing", "settling"
+  const char* phase = "";     ///< "dressing", "settling", "moving"
+  double time = 0, duration = 0;  ///< s, of a drape for a time: moved so far, and in all
 };
 
 struct DrapeSettings {
@@ -31,7 +33,14 @@ struct DrapeSettings {
   std::function<bool()> interrupted;                   ///< asked between steps; may be empty
 };
 
-enum class DrapeStatus { at_rest, interrupted, not_settled, tangled, diverged };
+enum class DrapeStatus {
+  at_rest,
+  interrupted,
+  not_settled,
+  tangled,
+  diverged,
+  ran,  ///< for its time: `drape for`
+};
 
 struct DrapeReport {
   DrapeStatus status = DrapeStatus::not_settled;
@@ -42,8 +51,13 @@ struct DrapeReport {
   std::size_t self_intersections = 0;   ///< triangle pairs, exact test
   std::size_t body_intersections = 0;   ///< triangle pairs cloth x body, exact test
   std::size_t inside_body = 0;          ///< particles inside a body
+  std::vector<model::Vector3d> reactions;  ///< N, with which each of the model's holders pulls on the cloth
+  MotionReport motion;              ///< of `drape for`; zero seconds for a drape to rest
   Findings findings;                ///< what could not be reached, with the panel that is the cause
 };
+
+/// RMS residual over RMS weight below which a garment rests.
+double target_residual(Settle settle);
 
 /// Moves `state` to rest. On return `state` holds the last consistent positions, whatever the status.
 DrapeReport drape(const model::Model& model, const std::vector<body::Body>& bodies, model::State& state,

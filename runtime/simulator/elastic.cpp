@@ -243,7 +243,7 @@ class ChunkPass {
     Vector3d span = Vector3d::Zero();
     for (int k = 1; k < s.n; ++k) span += s.coefficient[k] * (at(s.particle[k]) - at(s.particle[0]));
     const double length = span.norm();
-    const TieTerm t(s_.tensile_scale * s.stiffness, length - s.length);
+    const TieTerm t(s_.tensile_scale * s.stiffness, length - s.length, s.rod);
     if constexpr (kForce) {
       if (t.force == 0) return 0;
       const Direction along(span);
@@ -255,7 +255,7 @@ class ChunkPass {
       }
       push(s.particle[0], -sum);
       if constexpr (kHessian) {
-        const Matrix3d h = length_curvature(along.unit, t.slope, t.force * along.inverse_length);
+        const Matrix3d h = length_curvature(along.unit, t.slope, std::max(t.force, 0.0) * along.inverse_length);
         int place = 0;
         for (int a = 0; a < s.n; ++a)
           for (int b = a + 1; b < s.n; ++b) add(s.place[place++], (s.coefficient[a] * s.coefficient[b]) * h);

@@ -58,6 +58,8 @@ class ElasticModel {
 
   /// A zero matrix with this model's pattern.
   BlockMatrix make_matrix() const;
+  /// The stencils in the order of the hot loop, for what works on the same ones (KelvinDamping).
+  const ElasticStencils& stencils() const { return *stencils_; }
 
  private:
   std::unique_ptr<ElasticStencils> stencils_;

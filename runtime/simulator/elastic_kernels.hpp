@@ -133,15 +133,16 @@ struct MembraneTerm {
   }
 };
 
-/// A thread of stiffness k that is slack up to its length; too long by more than model::kTieReach it pulls no harder.
+/// A thread of stiffness k that is slack up to its length; too long by more than model::kTieReach it pulls no harder. A rod
+/// pushes alike where its ends come too near, and has the reach model::kRodReach.
 struct TieTerm {
   double energy = 0, force = 0, slope = 0;  ///< J, N, N/m, by the distance of its ends
-  TieTerm(double k, double gap) {
-    if (gap <= 0) return;
-    const double held = std::min(gap, model::kTieReach);
+  TieTerm(double k, double gap, bool rod = false) {
+    if (gap <= 0 && !rod) return;
+    const double reach = rod ? model::kRodReach : model::kTieReach, held = std::clamp(gap, -reach, reach);
     force = k * held;
     energy = force * (gap - 0.5 * held);
-    slope = gap < model::kTieReach ? k : 0;
+    slope = std::abs(gap) < reach ? k : 0;
   }
 };
 

@@ -312,6 +312,7 @@ class Builder {
     TieStencil s;
     s.length = m_.tie_length[k];
     s.stiffness = m_.tie_stiffness[k];
+    s.rod = std::binary_search(m_.rod_tie.begin(), m_.rod_tie.end(), static_cast<Index>(k));
     for (std::size_t j = 0; j < 6; ++j) {
       const double c = j < 3 ? -m_.tie_weights[k][j] : m_.tie_weights[k][j];
       const auto end = s.particle.begin() + s.n, same = std::find(s.particle.begin(), end, m_.tie[k][j]);

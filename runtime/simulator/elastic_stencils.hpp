@@ -93,6 +93,7 @@ struct TieStencil {
   std::array<double, 6> coefficient{};
   std::array<BlockPlace, 15> place{};  ///< 01 02 .. 0n-1, 12 .. 1n-1, ..
   double length = 0, stiffness = 0;
+  bool rod = false;          ///< pushes as well
 };
 
 /// A range of every kind of stencil, all near one another.

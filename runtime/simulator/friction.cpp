@@ -117,14 +117,17 @@ void BodyFriction::absorb(std::vector<Vector3d>& force, const Holds& holds) cons
   }
 }
 
-void BodyFriction::follow(const std::vector<Vector3d>& x) {
+double BodyFriction::follow(const std::vector<Vector3d>& x) {
+  double heat = 0;
   for (std::uint32_t i : active_) {
     Touch& t = touch_[i];
     Vector3d u = slip(t, x[i]);
     double size = u.norm();
     if (t.stiffness * size <= t.limit) continue;
     t.anchor = x[i] - u * (t.limit / t.stiffness / size);
+    heat += t.limit * (size - t.limit / t.stiffness);
   }
+  return heat;
 }
 
 void BodyFriction::clear() {

@@ -34,8 +34,21 @@ class BodyFriction {
   /// and of the tangential part up to mu N. What is left is what moves the cloth, whatever path it came by.
   /// Both act along what `holds` leave free: `force` must be filtered by them, and comes out filtered.
   void absorb(std::vector<Eigen::Vector3d>& force, const Holds& holds) const;
-  /// Lets the anchors of slipping particles follow (after an accepted step).
-  void follow(const std::vector<Eigen::Vector3d>& x);
+  /// Lets the anchors of slipping particles follow (after an accepted step). Returns the heat of the slip, J.
+  double follow(const std::vector<Eigen::Vector3d>& x);
+  /// Friction on particle i at x, N.
+  Eigen::Vector3d force_on(std::size_t i, const Eigen::Vector3d& x) const {
+    const Touch& t = touch_[i];
+    if (!t.anchored) return Eigen::Vector3d::Zero();
+    const Eigen::Vector3d u = slip(t, x);
+    const double size = u.norm();
+    return -(t.stiffness * size <= t.limit ? t.stiffness : t.limit / size) * u;
+  }
+  /// Moves the anchor of particle i, if it has one: the body that it rubs on has moved.
+  template <class Move>
+  void carry(std::size_t i, const Move& move) {
+    if (touch_[i].anchored) touch_[i].anchor = move(touch_[i].anchor);
+  }
   /// Forgets all anchors.
   void clear();
   const std::vector<std::uint32_t>& touching() const { return active_; }

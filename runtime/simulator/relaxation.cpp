@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "runtime/base/parallel.hpp"
+#include "runtime/simulator/reactions.hpp"
 #include "runtime/simulator/truncate.hpp"
 
 namespace garment::simulator {
@@ -61,7 +62,9 @@ Relaxation::Relaxation(const model::Model& model, const std::vector<body::Body>&
       linear_(matrix_.pattern(), holds_),
       mesh_(model, no_bodies(), ContactOptions{settings.self_collision, settings.self_offset, 0}),
       bodies_(model, bodies, mean_edge(model), settings.body),
-      friction_(model.n_particles(), settings.friction_give, bodies_.stiffness()) {
+      friction_(model.n_particles(), settings.friction_give, bodies_.stiffness()),
+      cloth_friction_(model, Rubbing::stated, settings.friction_give, settings.contact_stiffness),
+      loads_(model) {
   spacing_ = mean_edge(model);
   turns_.assign(model.n_particles(), 0);
   damping_.assign(model.n_particles(), 0);
@@ -124,7 +127,8 @@ double Relaxation::energy(const Vectors& x) const { return elastic_.energy(x) + 
 
 double Relaxation::total_energy(const Vectors& x, std::vector<Contact>& contacts) const {
   active_contacts(mesh_, candidates_, x, contacts, &shares_);
-  return energy(x) + contact_energy_sum(contacts) + bodies_.energy(x) + friction_.energy(x);
+  return energy(x) + loads_.energy(x, settings_.gravity_scale) + contact_energy_sum(contacts) + bodies_.energy(x) +
+         friction_.energy(x) + cloth_friction_.energy(x);
 }
 
 /// Forces of cloth on cloth, and with `with_stiffness` their second derivatives.
@@ -157,6 +161,8 @@ void Relaxation::collect_normal_forces(const Vectors& x) {
 void Relaxation::add_external_forces(const Vectors& x, Vectors& force) {
   Vector3d g = settings_.gravity_scale * model_.gravity;
   for (std::size_t i = 0; i < x.size(); ++i) force[i] += model_.mass[i] * g;
+  loads_.follow(x);
+  loads_.add(force, settings_.gravity_scale);
 }
 
 double Relaxation::rms_over_weight(const Vectors& force) const {
@@ -175,6 +181,9 @@ double Relaxation::residual(const Vectors& x, Vectors& force) {
   add_external_forces(x, force);
   collect_normal_forces(x);
   add_contacts(force, false);
+  cloth_friction_.begin(mesh_, candidates_, contacts_, settings_.contact_stiffness);
+  cloth_friction_.add_force(x, force, nullptr, nullptr);
+  reactions_ = simulator::reactions(model_, holds_, force);
   return residual_of(force);
 }
 
@@ -209,8 +218,11 @@ double Relaxation::assemble(const Vectors& x, StepReport& report) {
   elastic_.follow(x);
   double elastic = elastic_.energy_force_hessian(x, force_, matrix_);
   add_external_forces(x, force_);
+  loads_.add_stiffness(matrix_, settings_.gravity_scale);
   collect_normal_forces(x);
   add_contacts(force_, true);
+  cloth_friction_.begin(mesh_, candidates_, contacts_, settings_.contact_stiffness);
+  cloth_friction_.add_force(x, force_, &matrix_, &stiffness_);
   net_ = force_;
   report.residual = residual_of(net_);
   bodies_.add_forces(x, force_, matrix_);
@@ -219,7 +231,8 @@ double Relaxation::assemble(const Vectors& x, StepReport& report) {
   report.energy = elastic + gravity_energy(x);
   for (std::size_t i = 0; i < x.size(); ++i)
     matrix_.add_diagonal(i, model_.mass[i] / (time_step_ * time_step_) + damping_[i]);
-  return report.energy + contact_energy_sum(contacts_) + bodies_.energy(x) + friction_.energy(x);
+  return report.energy + loads_.energy(x, settings_.gravity_scale) + contact_energy_sum(contacts_) + bodies_.energy(x) +
+         friction_.energy(x) + cloth_friction_.energy(x);
 }
 
 /// dx_ from the linear system. A particle just off a body feels nothing of it, and the system would send it inside: who
@@ -340,6 +353,7 @@ StepReport Relaxation::step(Vectors& x) {
   bodies_.next_step();
   x.swap(trial_);
   friction_.follow(x);
+  cloth_friction_.follow(x);
   double gain = before - after;
   bool below_rounding = predicted < kRounding * std::abs(before);  // then the gain says nothing
   if (below_rounding && report.scale == 1)

@@ -9,11 +9,13 @@
 #include "runtime/model/model.hpp"
 #include "runtime/simulator/body_contact.hpp"
 #include "runtime/simulator/candidates.hpp"
+#include "runtime/simulator/cloth_friction.hpp"
 #include "runtime/simulator/contact.hpp"
 #include "runtime/simulator/contact_mesh.hpp"
 #include "runtime/simulator/elastic.hpp"
 #include "runtime/simulator/friction.hpp"
 #include "runtime/simulator/linear_solver.hpp"
+#include "runtime/simulator/loads.hpp"
 #include "runtime/simulator/truncate.hpp"
 #include "runtime/simulator/untangle.hpp"
 
@@ -55,7 +57,11 @@ class Relaxation {
 
   /// Elastic and gravity energy at x, J.
   double energy(const std::vector<Eigen::Vector3d>& x) const;
+  /// With which each holder pulled on the cloth at the last `residual`, N.
+  const std::vector<Eigen::Vector3d>& reactions() const { return reactions_; }
 
+  /// Moves the bodies from where they are given to where they are now.
+  void place_bodies(const std::vector<model::Placement>& placements) { bodies_.place(placements, friction_); }
   void set_gravity_scale(double scale) { settings_.gravity_scale = scale; }
   void set_tensile_scale(double scale) { elastic_.set_tensile_scale(scale); }
   void set_time_step(double seconds) { time_step_ = seconds; }
@@ -102,6 +108,9 @@ class Relaxation {
   Candidates candidates_;
   BodyContact bodies_;
   BodyFriction friction_;
+  ClothFriction cloth_friction_;
+  Loads loads_;
+  std::vector<Eigen::Vector3d> reactions_;
   Tangle tangle_;
   bool have_candidates_ = false;
   double spacing_ = 0.01;             // mean edge length, m

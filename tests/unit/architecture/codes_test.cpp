@@ -63,6 +63,7 @@ const std::map<std::string, std::string> kElsewhere = {
     {"G0651", "unit/modeller"}, {"G0652", "unit/modeller"},
     // A fault of the program; what only a drape finds.
     {"G0490", "unit/model"}, {"G0801", "physics"}, {"G0802", "physics"}, {"G0803", "physics"},
+    {"G0807", "physics"}, {"G0808", "physics"},
     // Patterns in JSON.
     {"G0941", "unit/io"}, {"G0942", "unit/io"}, {"G0943", "unit/io"}, {"G0944", "unit/io"}, {"G0945", "unit/io"},
     {"G0946", "unit/io"}, {"G0947", "unit/io"}, {"G0948", "unit/io"}, {"G0949", "unit/io"}, {"G0950", "unit/io"},
@@ -74,7 +75,7 @@ const std::map<std::string, std::string> kElsewhere = {
     // Drawings in SVG.
     {"G0971", "unit/io"}, {"G0972", "unit/io"}, {"G0973", "unit/io"}, {"G0974", "unit/io"},
     // Files beside the prompt; what an editor asks.
-    {"G1504", "unit/session"}, {"G1507", "unit/session"}, {"G1508", "unit/session"}, {"G1560", "unit/service"},
+    {"G1325", "unit/session"}, {"G1504", "unit/session"}, {"G1507", "unit/session"}, {"G1508", "unit/session"}, {"G1560", "unit/service"},
     {"G1561", "unit/service"}, {"G1562", "unit/service"},
 };
 

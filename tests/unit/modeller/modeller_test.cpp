@@ -281,7 +281,11 @@ TEST_CASE("a coarse grid keeps narrow panels fine enough") {
 
 TEST_CASE("what is declared and cannot be modelled yet is refused at its place") {
   design::Garment g = sheet();
-  g.scene.wind = design::Wind{};
-  g.scene.wind->origin = {8};
+  design::Pad pad;
+  pad.name = "outside";
+  pad.origin = {8};
+  pad.panel = 0;
+  pad.side = design::Facing::face;
+  g.pads.push_back(pad);
   CHECK(found(g) == "G0460@8 ");
 }

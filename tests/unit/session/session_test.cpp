@@ -264,7 +264,8 @@ TEST_CASE("the script's own release happens when it is run, not before") {
 TEST_CASE("acts that the prompt cannot do say who can") {
   Prompt prompt;
   CHECK(has(prompt.enter("vary wide over 5 cm, 6 cm { drape until rest }", Outcome::refused), "garment run"));
-  CHECK(has(prompt.enter("drape for 2 s", Outcome::refused), "error[G0804]"));
+  CHECK(has(prompt.enter("drape for 50 ms"), "ran for its time: 0.05 s"));
+  CHECK(has(prompt.enter("record curve elapsed, energy every 10 ms as \"fall.csv\"", Outcome::refused), "error[G1325]"));
 }
 
 TEST_CASE("the script's own acts run from the placed panels, as one step") {

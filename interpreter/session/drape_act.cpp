@@ -1,0 +1,67 @@
+#include "interpreter/session/drape_act.hpp"
+
+#include "interpreter/session/models.hpp"
+#include "runtime/model/motion.hpp"
+#include "runtime/simulator/drape_levels.hpp"
+#include "runtime/simulator/motion.hpp"
+#include "runtime/simulator/moved_bodies.hpp"
+
+namespace garment::session {
+namespace {
+
+simulator::DrapeReport to_rest(const DrapeScene& scene, const simulator::DrapeSettings& settings, model::State& state) {
+  std::vector<model::Model> coarse;
+  if (!scene.from_present) coarse = coarse_models(scene.script.garment, scene.bodies, scene.model);
+  if (scene.model.motions.empty()) return simulator::drape_levels(coarse, scene.model, scene.bodies, state, settings);
+  for (model::Model& level : coarse) level = model::at_time(level, state.time);
+  return simulator::drape_levels(coarse, model::at_time(scene.model, state.time),
+                                 simulator::bodies_at(scene.bodies, scene.model, state.time), state, settings);
+}
+
+simulator::MotionMethod method_of(const design::Garment& garment) {
+  if (!garment.scene.solver) return simulator::MotionMethod::implicit;
+  switch (garment.scene.solver->method) {
+    case design::SolverChoice::Method::quasi_static: return simulator::MotionMethod::quasi_static;
+    case design::SolverChoice::Method::explicit_steps: return simulator::MotionMethod::explicit_steps;
+    case design::SolverChoice::Method::dynamic_constraints: return simulator::MotionMethod::dynamic_constraints;
+    case design::SolverChoice::Method::implicit: break;
+  }
+  return simulator::MotionMethod::implicit;
+}
+
+simulator::DrapeReport for_a_time(double duration, const DrapeScene& scene, model::State& state) {
+  simulator::MotionSettings settings;
+  settings.duration = duration;
+  settings.method = method_of(scene.script.garment);
+  if (scene.script.garment.scene.solver) settings.step = scene.script.garment.scene.solver->step;
+  settings.progress = scene.settings.progress;
+  settings.interrupted = scene.settings.interrupted;
+  Recorder* recorder = scene.recorder;
+  if (recorder != nullptr && !recorder->idle()) {
+    settings.next_frame = [recorder](double after) { return recorder->next(after); };
+    settings.frame = [&](const model::State& now, const simulator::DrapeReport& report) {
+      recorder->sample(now, report, simulator::bodies_at(scene.bodies, scene.model, now.time));
+    };
+  }
+  simulator::DrapeReport report = simulator::move_on(scene.model, scene.bodies, state, settings);
+  if (recorder != nullptr) recorder->write_tables();
+  return report;
+}
+
+}  // namespace
+
+simulator::DrapeReport perform_drape(const interpreter::DrapeAct& act, const DrapeScene& scene, model::State& state) {
+  if (!act.until_rest) return for_a_time(act.duration, scene, state);
+  simulator::DrapeSettings settings = scene.settings;
+  settings.settle = act.settle;
+  return to_rest(scene, settings, state);
+}
+
+grammar::Diagnostics told_by(const simulator::DrapeReport& report, const interpreter::Interpretation& script, grammar::Span act) {
+  grammar::Diagnostics told = interpreter::to_diagnostics(report.findings, script.origins);
+  for (grammar::Diagnostic& d : told)
+    if (d.labels.empty()) d.labels.push_back({act, ""});
+  return told;
+}
+
+}  // namespace garment::session

@@ -1,0 +1,28 @@
+#pragma once
+// One `drape` of a script, to rest or for a time: for the command line, the prompt and the tests of scripts alike.
+#include <functional>
+#include <vector>
+
+#include "interpreter/language/interpret.hpp"
+#include "interpreter/session/recorder.hpp"
+#include "runtime/simulator/drape.hpp"
+
+namespace garment::session {
+
+/// Where a drape takes place.
+struct DrapeScene {
+  const interpreter::Interpretation& script;
+  const std::vector<body::Body>& bodies;  ///< at time 0
+  const model::Model& model;
+  bool from_present = false;              ///< the state hangs already: no coarser grids first
+  simulator::DrapeSettings settings{};    ///< `settle` is the act's
+  Recorder* recorder = nullptr;           ///< of a drape for a time; null: none
+};
+
+/// Drapes `state`. To rest, moving clamps and bodies stand where they are at the state's time.
+simulator::DrapeReport perform_drape(const interpreter::DrapeAct& act, const DrapeScene& scene, model::State& state);
+
+/// What the drape found, as diagnostics; what has no place of its own stands at the act's.
+grammar::Diagnostics told_by(const simulator::DrapeReport& report, const interpreter::Interpretation& script, grammar::Span act);
+
+}  // namespace garment::session

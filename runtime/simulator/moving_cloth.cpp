@@ -1,0 +1,318 @@
+#include "runtime/simulator/moving_cloth.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/base/parallel.hpp"
+#include "runtime/simulator/truncate.hpp"
+
+namespace garment::simulator {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using Vectors = std::vector<Vector3d>;
+
+constexpr double kStandardGravity = 9.80665;  // m/s^2
+constexpr double kSelfOffset = 1.2e-3;        // m, least contact distance of cloth with cloth, as in a drape to rest
+constexpr double kContactStiffness = 100;     // N/m
+constexpr double kFrictionGive = 1e-5;        // m, by which what sticks gives way: cloth in motion feels its springs
+constexpr double kHoldSpeed = 1;              // m/s, of what is not yet where its hold is
+constexpr double kLeastRoom = 2e-3;           // m, that a particle may go in one iteration however near a body is
+constexpr double kNear = 0.05;                // m round the cloth, where the speed of bodies counts
+constexpr double kHardening = 20;             // of PushLaw
+
+const std::vector<body::Body>& no_bodies() {
+  static const std::vector<body::Body> none;
+  return none;
+}
+
+double mean_edge(const model::Model& model) {
+  double sum = 0;
+  std::size_t n = 0;
+  for (const auto& t : model.triangle)
+    for (int k = 0; k < 3; ++k, ++n) sum += (model.vertex_uv[t[k]] - model.vertex_uv[t[(k + 1) % 3]]).norm();
+  return n ? sum / static_cast<double>(n) : 0.01;
+}
+
+/// The model for the elastic forces alone.
+model::Model without_ties(model::Model m) {
+  m.tie.clear();
+  m.tie_weights.clear();
+  m.tie_length.clear();
+  m.tie_stiffness.clear();
+  m.tie_closure.clear();
+  m.rod_tie.clear();
+  return m;
+}
+
+}  // namespace
+
+MovingCloth::MovingCloth(const model::Model& model, const std::vector<body::Body>& bodies, bool self_collision, double time, Acts acts)
+    : start_(model),
+      bodies_given_(bodies),
+      constrained_(acts == Acts::all),
+      moved_(model::at_time(model, time)),
+      last_holds_(moved_.hold_point),
+      elastic_(constrained_ ? model : without_ties(model)),
+      damping_(model, elastic_),
+      holds_(moved_),
+      matrix_(elastic_.make_matrix()),
+      linear_(matrix_.pattern(), holds_),
+      mesh_(model, no_bodies(), ContactOptions{self_collision, kSelfOffset, 0}),
+      bodies_(moved_, bodies, mean_edge(model), {}),
+      friction_(model.n_particles(), kFrictionGive, bodies_.stiffness()),
+      cloth_friction_(model, Rubbing::all, kFrictionGive, kContactStiffness),
+      loads_(moved_),
+      spacing_(mean_edge(model)),
+      touching_(model.n_particles(), 0) {
+  recent_motion_ = spacing_ / 2;
+  const double gravity = model.gravity.norm() > 0 ? model.gravity.norm() : kStandardGravity;
+  double sum = 0;
+  for (double m : model.mass) sum += m * m * gravity * gravity;
+  rms_weight_ = std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, model.n_particles())));
+  go_to(time);
+  last_placements_ = placements_;
+  for (const body::Body& body : bodies)
+    for (const auto& t : body.mesh.triangles)
+      for (int k = 0; k < 3; ++k)
+        fine_bodies_ = fine_bodies_ && (body.mesh.vertices[t[k]] - body.mesh.vertices[t[(k + 1) % 3]]).norm() < kNear;
+}
+
+void MovingCloth::go_to(double time) {
+  if (start_.motions.empty()) return;
+  model::move_holds(start_, time, moved_);
+  placements_.assign(bodies_given_.size(), {});
+  bool any = false;
+  for (const model::Motion& m : start_.motions) {
+    if (m.body < 0 || static_cast<std::size_t>(m.body) >= placements_.size()) continue;
+    placements_[static_cast<std::size_t>(m.body)] = model::placement_at(m, time);
+    any = true;
+  }
+  if (any) bodies_.place(placements_, friction_);
+}
+
+/// x without the mean way of the cloth: candidates then last, however fast it falls.
+void MovingCloth::relative(const Vectors& x) {
+  relative_.resize(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) relative_[i] = x[i] - shift_;
+}
+
+void MovingCloth::refresh_candidates(const Vectors& x) {
+  relative(x);
+  if (have_candidates_ && candidates_.valid(relative_)) return;
+  const double room = std::clamp(6 * recent_motion_, 0.15 * spacing_, 1.2 * spacing_);
+  candidates_.rebuild(mesh_, relative_, mesh_.largest_contact_distance + room);
+  have_candidates_ = true;
+}
+
+void MovingCloth::begin_step(const Vectors& x, const Vectors* strained) {
+  elastic_.follow(x);
+  damping_.begin(strained ? *strained : x);
+  bodies_.find(x);
+  friction_.begin_step();
+  bodies_.add_normal_forces(x, friction_);
+  friction_.freeze(x);
+  refresh_candidates(x);
+  active_contacts(mesh_, candidates_, relative_, contacts_);
+  cloth_friction_.begin(mesh_, candidates_, contacts_, kContactStiffness);
+}
+
+double MovingCloth::weight_energy(const Vectors& x) const {
+  return parallel_sum(x.size(), 4096, 0.0, [&](std::size_t begin, std::size_t end) {
+    double sum = 0;
+    for (std::size_t i = begin; i < end; ++i) sum -= moved_.mass[i] * moved_.gravity.dot(x[i]);
+    return sum;
+  });
+}
+
+double MovingCloth::contact_energy_sum(const std::vector<Contact>& contacts) const {
+  double sum = 0;
+  for (const Contact& c : contacts) sum += c.share * contact_energy(c.distance, c.contact_distance, kContactStiffness).value;
+  return sum;
+}
+
+void MovingCloth::add_contacts(bool with_matrix) {
+  contact_stiffness_.clear();
+  for (const Contact& c : contacts_) {
+    const ContactEnergy e = contact_energy(c.distance, c.contact_distance, kContactStiffness);
+    ContactStiffness s{{-1, -1, -1, -1}, {0, 0, 0, 0}, c.normal.cast<float>(), static_cast<float>(c.share * e.second)};
+    for (int k = 0; k < 4; ++k) {
+      if (c.p[k] < 0 || c.p[k] >= mesh_.n_particles || c.w[k] == 0) continue;
+      force_[c.p[k]] -= c.share * e.first * c.w[k] * c.normal;
+      if (!with_matrix) continue;
+      s.particle[k] = c.p[k];
+      s.weight[k] = static_cast<float>(c.w[k]);
+      matrix_.add_diagonal(static_cast<std::size_t>(c.p[k]),
+                           Matrix3d(c.share * e.second * c.w[k] * c.w[k] * c.normal * c.normal.transpose()));
+    }
+    if (with_matrix) contact_stiffness_.push_back(s);
+  }
+}
+
+Energies MovingCloth::assemble(const Vectors& x, const Vectors& v, double h, double time, bool with_matrix) {
+  Energies e;
+  refresh_candidates(x);
+  bodies_.find(x);
+  active_contacts(mesh_, candidates_, relative_, contacts_);
+  shares_.assign(candidates_.pairs().size(), 0.0F);
+  for (const Contact& c : contacts_) shares_[c.pair] = static_cast<float>(c.share);
+  if (!with_matrix) {
+    matrix_.clear_added();
+    e.stored = elastic_.energy_and_force(x, force_);
+    e.dissipation = damping_.add_force(x, h, force_);
+  } else {
+    e.stored = elastic_.energy_force_hessian(x, force_, matrix_);
+    e.dissipation = damping_.add_force_hessian(x, h, force_, matrix_);
+  }
+  for (std::size_t i = 0; i < x.size(); ++i) force_[i] += moved_.mass[i] * moved_.gravity;
+  loads_.follow(x, &v, time);
+  loads_.add(force_);
+  if (with_matrix) loads_.add_stiffness(matrix_);
+  e.dead_loads = loads_.energy(x);
+  e.stored += weight_energy(x);
+  if (!constrained_) return e;
+  add_contacts(with_matrix);
+  cloth_friction_.add_force(x, force_, with_matrix ? &matrix_ : nullptr, with_matrix ? &contact_stiffness_ : nullptr);
+  bodies_.add_forces(x, force_, matrix_);
+  friction_.add_force(x, force_, with_matrix ? &matrix_ : nullptr);
+  if (with_matrix && !moved_.air.still())
+    for (std::size_t i = 0; i < x.size(); ++i) matrix_.add_diagonal(i, loads_.air_damping()[i] / h);
+  e.stored += contact_energy_sum(contacts_) + bodies_.energy(x) + friction_.energy(x) + cloth_friction_.energy(x);
+  return e;
+}
+
+Energies MovingCloth::energies(const Vectors& x, double h) {
+  Energies e;
+  e.stored = elastic_.energy(x) + weight_energy(x);
+  e.dissipation = damping_.potential(x, h);
+  e.dead_loads = loads_.energy(x);
+  if (!constrained_) return e;
+  relative(x);
+  active_contacts(mesh_, candidates_, relative_, trial_contacts_, &shares_);
+  e.stored += contact_energy_sum(trial_contacts_) + bodies_.energy(x) + friction_.energy(x) + cloth_friction_.energy(x);
+  return e;
+}
+
+std::size_t MovingCloth::keep_apart(const Vectors& x, Vectors& dx) {
+  std::size_t changed = 0;
+  mean_.setZero();
+  if (!bodies_given_.empty())
+    for (std::size_t i = 0; i < dx.size(); ++i) {
+      const double size = dx[i].norm();
+      if (size <= kLeastRoom) continue;
+      const double most = std::max(kLeastRoom, bodies_.room(i, x[i]));
+      if (size <= most) continue;
+      dx[i] *= most / size;
+      ++changed;
+    }
+  if (!mesh_.options.self) return changed;
+  double mass = 0;
+  const bool flies = moved_.hold_particle.empty();  // what is held does not follow the others
+  for (std::size_t i = 0; flies && i < dx.size(); ++i) {
+    mean_ += moved_.mass[i] * dx[i];
+    mass += moved_.mass[i];
+  }
+  mean_ /= std::max(mass, 1e-300);
+  relative_dx_.resize(dx.size());
+  double largest = 0;
+  for (std::size_t i = 0; i < dx.size(); ++i) {
+    relative_dx_[i] = dx[i] - mean_;
+    largest = std::max(largest, relative_dx_[i].norm());
+  }
+  recent_motion_ = std::max(largest, 0.7 * recent_motion_);
+  relative(x);
+  const TruncateStats cut = truncate(mesh_, candidates_, relative_, relative_dx_);
+  if (cut.out_of_reach > 0) {
+    recent_motion_ = std::min(2 * recent_motion_, spacing_ / 2);
+    have_candidates_ = false;
+  }
+  if (cut.limited > 0 || cut.out_of_reach > 0)
+    for (std::size_t i = 0; i < dx.size(); ++i) dx[i] = relative_dx_[i] + mean_;
+  return changed + cut.limited;
+}
+
+void MovingCloth::held_motion(const Vectors& x, double h, Vectors& dx) const {
+  std::vector<char> begun(dx.size(), 0);
+  for (std::size_t k = 0; k < moved_.hold_particle.size(); ++k) {
+    const auto i = static_cast<std::size_t>(moved_.hold_particle[k]);
+    const Vector3d off = holds_.error(moved_, k, x[i]);  // to where the hold is now
+    Vector3d with = moved_.hold_point[k] - last_holds_[k];
+    if (moved_.hold_kind[k] == model::HoldKind::plane) {
+      const Vector3d n = moved_.hold_normal[k].normalized();
+      with = n * n.dot(with);
+      if (!begun[i]) dx[i] = holds_.filtered(i, dx[i]);
+    } else {
+      dx[i].setZero();
+    }
+    begun[i] = 1;
+    const Vector3d late = off - with;
+    const double size = late.norm(), most = kHoldSpeed * h;
+    dx[i] += with + (size > most ? Vector3d(late * (most / size)) : late);
+  }
+}
+
+double MovingCloth::new_contacts(const Vectors& x) {
+  bodies_.pressed(x, touched_);
+  for (const Contact& c : contacts_)
+    for (Index p : c.p)
+      if (p >= 0 && p < mesh_.n_particles) touched_[p] = 1;
+  double fresh = 0, all = 0;
+  for (std::size_t i = 0; i < touched_.size(); ++i) {
+    all += touched_[i];
+    fresh += touched_[i] && !touching_[i] ? 1 : 0;
+  }
+  return all > 0 ? fresh / all : 0;
+}
+
+void MovingCloth::rub(const Vectors& x, const Vectors& x0) {
+  friction_.begin_step();
+  bodies_.add_normal_forces(x, friction_);
+  friction_.freeze(x0);
+}
+
+MovingCloth::Accepted MovingCloth::accept(const Vectors& x) {
+  Accepted out;
+  new_contacts(x);
+  touching_ = touched_;
+  if (constrained_ && !placements_.empty()) out.work_of_bodies = bodies_.work_of_motion(last_placements_, x, friction_);
+  if (constrained_) out.friction_heat = friction_.follow(x) + cloth_friction_.follow(x);
+  bodies_.next_step();
+  last_holds_ = moved_.hold_point;
+  last_placements_ = placements_;
+  return out;
+}
+
+double MovingCloth::body_speed(const Vectors& x, double from, double to) const {
+  double most = 0;
+  if (start_.motions.empty()) return 0;
+  Vector3d low = Vector3d::Constant(1e300), high = -low;
+  for (const Vector3d& p : x) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  low.array() -= kNear;
+  high.array() += kNear;
+  for (const model::Motion& m : start_.motions) {
+    if (m.body < 0 || static_cast<std::size_t>(m.body) >= bodies_given_.size() || !(to > from)) continue;
+    const model::Placement a = model::placement_at(m, from), b = model::placement_at(m, to);
+    for (const Vector3d& v : bodies_given_[static_cast<std::size_t>(m.body)].mesh.vertices) {
+      const Vector3d at = a.apply(v), way = b.apply(v) - at;
+      const bool near = (at.array() > low.array()).all() && (at.array() < high.array()).all();
+      if (near || !fine_bodies_) most = std::max(most, way.norm() / (to - from));
+    }
+  }
+  return most;
+}
+
+Vector3d MovingCloth::body_velocity(const Push& push, const Vector3d& x, double h) const {
+  if (push.body < 0 || placements_.empty() || last_placements_.empty()) return Vector3d::Zero();
+  return (x - last_placements_[push.body].apply(placements_[push.body].undo(x))) / h;
+}
+
+double MovingCloth::largest_contact_stiffness() const {
+  if (!constrained_) return 0;
+  return (bodies_given_.empty() ? 0 : kHardening * bodies_.stiffness()) + (mesh_.options.self ? 8 * kContactStiffness : 0);
+}
+
+}  // namespace garment::simulator

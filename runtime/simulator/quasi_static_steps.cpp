@@ -1,0 +1,197 @@
+#include "runtime/simulator/quasi_static_steps.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "runtime/base/number.hpp"
+#include "runtime/model/motion.hpp"
+#include "runtime/simulator/certificate.hpp"
+#include "runtime/simulator/moved_bodies.hpp"
+#include "runtime/simulator/relaxation.hpp"
+
+namespace garment::simulator {
+namespace {
+
+using Eigen::Vector3d;
+using Vectors = std::vector<Vector3d>;
+
+constexpr double kRestTimeStep = 0.25;   // s
+constexpr double kRestStep = 0.5e-3;     // m
+constexpr int kMostSteps = 600;          // of the relaxation, between two moments
+constexpr double kShareOfSpacing = 0.25;
+constexpr double kNothing = 1e-4;        // of the residual at rest: no step is needed to judge it
+
+double mean_spring(const model::Model& model) {
+  double sum = 0;
+  for (double l : model.spring_rest) sum += l;
+  return model.spring_rest.empty() ? 0.01 : sum / static_cast<double>(model.spring_rest.size());
+}
+
+std::vector<model::Placement> placements_at(const model::Model& model, std::size_t n_bodies, double time) {
+  std::vector<model::Placement> placements(n_bodies);
+  for (const model::Motion& m : model.motions)
+    if (m.body >= 0 && static_cast<std::size_t>(m.body) < n_bodies)
+      placements[static_cast<std::size_t>(m.body)] = model::placement_at(m, time);
+  return placements;
+}
+
+/// One motion under way.
+class Follower {
+ public:
+  Follower(const model::Model& model, const std::vector<body::Body>& bodies, model::State& state, const MotionSettings& settings,
+           DrapeReport& report)
+      : start_(model),
+        bodies_(bodies),
+        state_(state),
+        settings_(settings),
+        report_(report),
+        moved_(model::at_time(model, state.time)),
+        relaxation_(moved_, bodies, relaxation_settings(settings)),
+        begun_(state.time) {}
+
+  void go() {
+    place(state_.time);
+    if (!settle()) return;
+    tell_frame();
+    const double end = begun_ + settings_.duration;
+    double frame = next_frame();
+    while (state_.time < end - 1e-12) {
+      const double to = std::min({end, frame, state_.time + stride(end)});
+      place(to);
+      state_.time = to;
+      if (!settle()) return;
+      if (to >= frame - 1e-12) {
+        tell_frame();
+        frame = next_frame();
+      }
+    }
+    report_.status = DrapeStatus::ran;
+  }
+
+ private:
+  static RelaxationSettings relaxation_settings(const MotionSettings& settings) {
+    RelaxationSettings out;
+    out.self_collision = settings.self_collision;
+    return out;
+  }
+
+  void place(double time) {
+    model::move_holds(start_, time, moved_);
+    if (!start_.motions.empty()) relaxation_.place_bodies(placements_at(start_, bodies_.size(), time));
+  }
+
+  /// Time until something has gone by a part of the spacing, s.
+  double stride(double end) const {
+    const double most = end - state_.time, look = std::min(most, 1e-3);
+    double speed = 0;
+    model::Model later = model::at_time(start_, state_.time + look);
+    for (std::size_t h = 0; h < later.hold_point.size(); ++h)
+      speed = std::max(speed, (later.hold_point[h] - moved_.hold_point[h]).norm() / look);
+    const auto now = placements_at(start_, bodies_.size(), state_.time), then = placements_at(start_, bodies_.size(), state_.time + look);
+    for (std::size_t b = 0; b < bodies_.size(); ++b)
+      if (!start_.motions.empty())
+        for (const Vector3d& v : bodies_[b].mesh.vertices) speed = std::max(speed, (then[b].apply(v) - now[b].apply(v)).norm() / look);
+    return speed > 0 ? std::min(most, kShareOfSpacing * mean_spring(start_) / speed) : most;
+  }
+
+  bool settle() {
+    relaxation_.set_time_step(kRestTimeStep);
+    relaxation_.forget_swings();
+    Vectors before;
+    for (int k = 0; k < kMostSteps && report_.steps < settings_.max_steps; ++k) {
+      if (settings_.interrupted && settings_.interrupted()) {
+        report_.status = DrapeStatus::interrupted;
+        return false;
+      }
+      before = state_.position;
+      const StepReport step = relaxation_.step(state_.position);
+      ++report_.steps;
+      if (!std::all_of(state_.position.begin(), state_.position.end(), [](const Vector3d& p) { return p.allFinite(); })) {
+        state_.position = before;
+        report_.status = DrapeStatus::diverged;
+        report_.findings.push_back({"G0803", Severity::error, "the positions became infinite; the last finite state was kept", {},
+                                    "check the fabric for extreme stiffness or density, and the resolution"});
+        return false;
+      }
+      report_.residual = step.residual;
+      report_.newton_step = step.newton_step;
+      if (settings_.progress)
+        settings_.progress({report_.steps, state_.position.size(), step.residual, target_residual(Settle::equilibrium),
+                            step.largest_motion, "following", state_.time - begun_, settings_.duration});
+      const double target = target_residual(Settle::equilibrium);
+      const bool judged = step.residual <= kNothing * target || (step.time_step >= kRestTimeStep && step.newton_step < kRestStep);
+      if (k > 0 && step.residual <= target && judged && held_in_place()) return true;
+    }
+    report_.status = DrapeStatus::not_settled;
+    report_.findings.push_back({"G0802", Severity::error,
+                                fmt::format("at {} s the residual is {} of the weight after {} steps, {} is rest",
+                                            format_number(state_.time, 4), format_number(report_.residual, 3), kMostSteps,
+                                            format_number(target_residual(Settle::equilibrium), 3)),
+                                {},
+                                "move it less far, or let the cloth move in earnest: leave `solver quasi_static` out"});
+    return false;
+  }
+
+  bool held_in_place() const {
+    for (std::size_t h = 0; h < moved_.hold_particle.size(); ++h) {
+      const Vector3d off = moved_.hold_point[h] - state_.position[moved_.hold_particle[h]];
+      const Vector3d n = moved_.hold_normal[h];
+      const bool point = moved_.hold_kind[h] == model::HoldKind::point;
+      if ((point ? off.norm() : std::abs(off.dot(n.normalized()))) > 1e-6) return false;
+    }
+    return true;
+  }
+
+  double next_frame() const {
+    return settings_.next_frame ? settings_.next_frame(state_.time) : std::numeric_limits<double>::infinity();
+  }
+
+  void tell_frame() {
+    Vectors force;
+    report_.residual = relaxation_.residual(state_.position, force);
+    report_.reactions = relaxation_.reactions();
+    report_.energy = relaxation_.energy(state_.position);
+    report_.motion.seconds = state_.time - begun_;
+    if (settings_.frame) settings_.frame(state_, report_);
+  }
+
+  const model::Model& start_;
+  const std::vector<body::Body>& bodies_;
+  model::State& state_;
+  const MotionSettings& settings_;
+  DrapeReport& report_;
+  model::Model moved_;
+  Relaxation relaxation_;
+  double begun_;
+};
+
+}  // namespace
+
+DrapeReport follow_paths(const model::Model& model, const std::vector<body::Body>& bodies, model::State& state,
+                         const MotionSettings& settings) {
+  DrapeReport report;
+  const double begun = state.time;
+  Follower follower(model, bodies, state, settings, report);
+  follower.go();
+  state.velocity.assign(state.position.size(), Vector3d::Zero());
+  report.motion.seconds = state.time - begun;
+  const model::Model moved = model::at_time(model, state.time);
+  const std::vector<body::Body> now = bodies_at(bodies, model, state.time);
+  RelaxationSettings end;
+  end.self_collision = settings.self_collision;
+  Relaxation last(moved, now, end);
+  Vectors force;
+  (void)last.residual(state.position, force);
+  report.reactions = last.reactions();
+  report.energy = last.energy(state.position);
+  const Certificate certificate = certify(model, state, now);
+  report.self_intersections = certificate.self_intersections;
+  report.body_intersections = certificate.body_intersections;
+  report.inside_body = certificate.inside_body;
+  return report;
+}
+
+}  // namespace garment::simulator
