@@ -31,6 +31,13 @@ struct Push {
   Vector3d way;
 };
 
+/// The last distance query at a place. Distance falls by no more than the way gone since, so most need not be asked again.
+struct Sounding {
+  Vector3d at{0, 0, 0};
+  double distance = -1e300;  ///< m, signed
+  double least(const Vector3d& p) const { return distance - (p - at).norm(); }
+};
+
 class Clearing {
  public:
   Clearing(const body::Body& body, model::Model& model)
@@ -47,6 +54,8 @@ class Clearing {
         if (c[k] != c[(k + 1) % 3])
           edges.insert({std::min(c[k], c[(k + 1) % 3]), std::max(c[k], c[(k + 1) % 3])});
     }
+    middles_.resize(triangles_.size());
+    samples_.resize(triangles_.size());
     for (auto [a, b] : edges) neighbours_[a].push_back(b), neighbours_[b].push_back(a);
     for (const char* name : {"leg.left", "leg.right"})
       if (auto leg = body.parts.find(name); leg != body.parts.end() && !leg->second.sections.empty())
@@ -65,30 +74,43 @@ class Clearing {
 
  private:
   /// Points closer to the body than `gap`, triangle by triangle.
-  std::vector<Push> find(double gap) const {
+  std::vector<Push> find(double gap) {
     constexpr std::size_t kGrain = 64;
     std::vector<std::vector<Push>> found((triangles_.size() + kGrain - 1) / kGrain);
     parallel_for(triangles_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t t = begin; t < end; ++t) look_at(triangles_[t], gap, found[begin / kGrain]);
+      for (std::size_t t = begin; t < end; ++t) look_at(t, gap, found[begin / kGrain]);
     });
     std::vector<Push> all;
     for (const auto& f : found) all.insert(all.end(), f.begin(), f.end());
     return all;
   }
 
-  void look_at(const model::Indices<3>& c, double gap, std::vector<Push>& out) const {
+  void look_at(std::size_t t, double gap, std::vector<Push>& out) {
+    const model::Indices<3>& c = triangles_[t];
     const Vector3d &a = x_[c[0]], &b = x_[c[1]], &d = x_[c[2]];
-    double longest = std::max({(b - a).norm(), (d - b).norm(), (a - d).norm()});
-    auto middle = body_.closest((a + b + d) / 3, kReach);
-    if (!middle || middle->distance > longest + gap) return;
-    int n = std::clamp(static_cast<int>(longest / kSample), 1, kMostSamples);
+    const double longest = std::max({(b - a).norm(), (d - b).norm(), (a - d).norm()});
+    const Vector3d middle = (a + b + d) / 3;
+    if (middles_[t].least(middle) > longest + gap) return;
+    sound(middle, middles_[t]);
+    if (middles_[t].distance > longest + gap) return;
+    const int n = std::clamp(static_cast<int>(longest / kSample), 1, kMostSamples);
+    std::vector<Sounding>& known = samples_[t];
+    if (known.size() != static_cast<std::size_t>((n + 1) * (n + 2) / 2)) known.assign((n + 1) * (n + 2) / 2, {});
+    std::size_t k = 0;
     for (int i = 0; i <= n; ++i)
-      for (int j = 0; i + j <= n; ++j) {
-        std::array<double, 3> w{double(n - i - j) / n, double(i) / n, double(j) / n};
-        Vector3d p = w[0] * a + w[1] * b + w[2] * d;
-        auto hit = body_.closest(p, kReach);
+      for (int j = 0; i + j <= n; ++j, ++k) {
+        const std::array<double, 3> w{double(n - i - j) / n, double(i) / n, double(j) / n};
+        const Vector3d p = w[0] * a + w[1] * b + w[2] * d;
+        if (std::max(middles_[t].least(p), known[k].least(p)) >= gap) continue;
+        const auto hit = sound(p, known[k]);
         if (hit && hit->distance < gap) out.push_back({c, w, way_out(p, *hit)});
       }
+  }
+
+  std::optional<body::SurfacePoint> sound(const Vector3d& p, Sounding& last) const {
+    auto hit = body_.closest(p, kReach);
+    last = {p, hit ? hit->distance : kReach};
+    return hit;
   }
 
   Vector3d way_out(const Vector3d& p, const body::SurfacePoint& hit) const {
@@ -185,6 +207,8 @@ class Clearing {
   std::vector<bool> pushed_;     ///< ever: what was pushed out does not follow others back in
   std::vector<std::vector<Index>> neighbours_;
   std::vector<model::Indices<3>> triangles_;
+  std::vector<Sounding> middles_;                ///< of every triangle
+  std::vector<std::vector<Sounding>> samples_;   ///< of the points looked at on every triangle
   std::vector<const body::Part*> legs_;
   std::vector<int> side_;
   double middle_ = 0, top_ = -1e300;  ///< x between the legs, y of their upper ends, m
