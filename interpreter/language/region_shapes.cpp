@@ -355,8 +355,15 @@ class ShapeReader {
     return shape;
   }
 
+  /// The right round of a `both` is the image of the left one. Lines keep their way in it, so its left is the image's right.
+  bool mirrored() const {
+    for (const Scope* at = &scope_; at != nullptr; at = at->parent)
+      if (!at->half.empty()) return at->half == "right";
+    return false;
+  }
+
   RegionShape make_side(const std::string& word, const Expr& expr) {
-    RegionShape shape = leaf(word == "left" ? Kind::left_of : Kind::right_of);
+    RegionShape shape = leaf((word == "left") != mirrored() ? Kind::left_of : Kind::right_of);
     const Value value = eval(program_, expr, scope_);
     const auto* edge = value.as<EdgeValue>();
     if (edge == nullptr) fail_target(expr, value, "`of` takes an edge or line");

@@ -168,6 +168,12 @@ bool Inbox::waiting() {
   return !messages_.empty();
 }
 
+bool Inbox::waiting_within(std::chrono::milliseconds time) {
+  std::unique_lock lock(mutex_);
+  changed_.wait_for(lock, time, [&] { return !messages_.empty() || ended_; });
+  return !messages_.empty();
+}
+
 bool Inbox::take_cancelled(const Json& id) {
   const std::lock_guard lock(mutex_);
   return cancelled_.erase(id.dump()) > 0;

@@ -1,6 +1,7 @@
 #pragma once
 // Messages as they come in: a thread takes them off the byte stream, so that the server knows what waits
 // while it works.
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
@@ -36,6 +37,8 @@ class Inbox {
   std::optional<Message> next();
   /// True if a message waits.
   bool waiting();
+  /// The same, but gives a message so long to come while the stream is open.
+  bool waiting_within(std::chrono::milliseconds time);
   /// True once the request was cancelled by a message that waits; forgets it.
   bool take_cancelled(const Json& id);
 

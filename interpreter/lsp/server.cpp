@@ -5,6 +5,8 @@
 namespace garment::lsp {
 namespace {
 
+constexpr std::chrono::milliseconds kPause{300};  // in the typing, after which the model is built: that takes a large garment half a second
+
 constexpr int kInvalidRequest = -32600, kNoSuchMethod = -32601, kInvalidParams = -32602, kInternal = -32603;
 constexpr int kNotInitialized = -32002, kCancelled = -32800;
 
@@ -190,6 +192,7 @@ void Server::work() {
       documents_.analyse(*document);
       publish(*document);
     } else if (Document* unchecked = documents_.next_unchecked()) {
+      if (inbox_.waiting_within(kPause)) return;
       documents_.check_model(*unchecked);
       if (!unchecked->now->model.empty()) publish(*unchecked);
     } else {

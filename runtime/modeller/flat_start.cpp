@@ -1,6 +1,7 @@
 #include "runtime/modeller/flat_start.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "runtime/modeller/pleats.hpp"
 
@@ -13,6 +14,7 @@ using model::Index;
 using model::Vector3d;
 
 constexpr double kLeastGap = 2e-3;  // m
+constexpr double kOnAxis = 1e-6;    // m
 
 /// How far a panel reaches below (towards the back) and above its plane, m.
 struct Reach {
@@ -109,7 +111,14 @@ std::vector<Vector3d> flat_start(const design::Garment& garment, const model::Mo
     }
     if (panel.placement.folded) {
       const Axis axis = half_axis(garment, static_cast<int>(p), low, high);
-      const Point2 across(-axis.along.y(), axis.along.x());
+      Point2 across(-axis.along.y(), axis.along.x());
+      // The smaller part is turned, whichever way the line runs: a lapel, not the front that it belongs to.
+      Index turned = 0, kept = 0;
+      for (Index v = range.first_vertex; v < end; ++v) {
+        const double off = (flat[v].head<2>() - axis.at).dot(across);
+        if (std::abs(off) > kOnAxis) ++(off > 0 ? turned : kept);
+      }
+      if (turned > kept) across = -across;
       for (Index v = range.first_vertex; v < end; ++v) {
         const double off = (flat[v].head<2>() - axis.at).dot(across);
         if (off <= 0) continue;
