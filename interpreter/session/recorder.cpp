@@ -13,6 +13,7 @@ namespace garment::session {
 namespace {
 
 constexpr double kSameTime = 1e-9;  // of an interval
+constexpr int kMostFrames = 10'000, kMostRows = 1'000'000;
 
 std::string heading(const std::string& text, const std::string& unit) {
   std::string cell = text;
@@ -54,7 +55,7 @@ void Recorder::sample(const model::State& state, const simulator::DrapeReport& r
 
 void Recorder::take(Track& track, const model::State& state, const simulator::DrapeReport& report,
                     const std::vector<body::Body>& bodies) {
-  if (track.broken) return;
+  if (track.broken || too_many(track)) return;
   if (track.act.frames) return write_frame(track, state, bodies);
   const DrapeAnswers answers(script_.garment, bodies, model_, state, report);
   const interpreter::CurvePoint p = interpreter::evaluate_curve(script_, track.act, answers);
@@ -71,7 +72,28 @@ void Recorder::take(Track& track, const model::State& state, const simulator::Dr
 void Recorder::write_frame(Track& track, const model::State& state, const std::vector<body::Body>& bodies) {
   const std::string name = numbered(track.act.path, track.frames);
   const ResultFile file = make_result_file(name, script_.garment, bodies, model_, state);
-  if (file.bytes) write_(name, *file.bytes);
+  if (file.bytes) return write_(name, *file.bytes);
+  grammar::Diagnostic d;
+  d.code = "G0905";
+  d.message = file.message;
+  d.help = file.help;
+  d.labels.push_back({track.act.statement->span, ""});
+  diagnostics_.push_back(std::move(d));
+  track.broken = true;
+}
+
+/// Scripts of strangers do not fill a disk.
+bool Recorder::too_many(Track& track) {
+  const int most = track.act.frames ? kMostFrames : kMostRows;
+  if (track.frames < most) return false;
+  grammar::Diagnostic d;
+  d.code = "G1324";
+  d.message = fmt::format("a record of more than {} {}", most, track.act.frames ? "frames" : "rows");
+  d.help = "record more seldom: `every` a longer time";
+  d.labels.push_back({track.act.statement->span, "it ends here"});
+  diagnostics_.push_back(std::move(d));
+  track.broken = true;
+  return true;
 }
 
 void Recorder::write_tables() {

@@ -38,6 +38,7 @@ class Recorder {
     double start = 0;   // s, of the first sample
     bool broken = false;
   };
+  bool too_many(Track& track);
   void take(Track& track, const model::State& state, const simulator::DrapeReport& report, const std::vector<body::Body>& bodies);
   void write_frame(Track& track, const model::State& state, const std::vector<body::Body>& bodies);
 

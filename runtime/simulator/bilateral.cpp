@@ -12,7 +12,7 @@ using Vectors = std::vector<Vector3d>;
 
 constexpr double kRegularised = 1e-9;  // of a row's diagonal
 constexpr double kRedundant = 1e-7;    // pivot over diagonal of a row that says nothing new
-constexpr int kMostRounds = 10;        // of dropping threads that push
+constexpr double kNothing = 1e-20;  // of a squared gradient
 
 ConstraintRow hold_row(Index particle, const Vector3d& n, double value, double drift, std::size_t hold) {
   ConstraintRow row;
@@ -78,11 +78,26 @@ Eigen::VectorXd solve(const model::Model& m, const std::vector<ConstraintRow>& r
   const Eigen::VectorXd diagonal = A.diagonal();
   for (Eigen::Index r = 0; r < n; ++r) A.coeffRef(r, r) += kRegularised * diagonal[r];
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(A);
+  if (factor.info() != Eigen::Success) {
+    redundant = static_cast<int>(n);
+    return Eigen::VectorXd::Zero(n);
+  }
   const Eigen::VectorXd pivots = factor.vectorD();
   const Eigen::VectorXd ordered = factor.permutationP() * diagonal;
   redundant = 0;
   for (Eigen::Index r = 0; r < n; ++r) redundant += pivots[r] < kRedundant * ordered[r] ? 1 : 0;
   return factor.solve(b);
+}
+
+/// False where sewing has made one particle of what the constraint holds apart.
+bool moves_something(const ConstraintRow& row) {
+  for (int k = 0; k < row.n; ++k) {
+    Vector3d sum = Vector3d::Zero();
+    for (int j = 0; j < row.n; ++j)
+      if (row.particle[j] == row.particle[k]) sum += row.gradient[j];
+    if (sum.squaredNorm() > kNothing) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -109,11 +124,11 @@ Reactive reactive_forces(const model::Model& m, const std::vector<ConstraintRow>
   Reactive out;
   out.force.assign(active.size(), Vector3d::Zero());
   out.of_holds = out.force;
-  std::vector<std::size_t> use(rows.size());
-  for (std::size_t r = 0; r < use.size(); ++r) use[r] = r;
-  for (const ConstraintRow& row : rows) out.largest_error = std::max(out.largest_error, std::abs(row.value));
+  std::vector<std::size_t> use;
+  for (std::size_t r = 0; r < rows.size(); ++r)
+    if (moves_something(rows[r])) use.push_back(r);
   Eigen::VectorXd lambda;
-  for (int round = 0; round < kMostRounds && !use.empty(); ++round) {
+  while (!use.empty()) {  // ends: every round but the last drops a thread
     Eigen::VectorXd b(static_cast<Eigen::Index>(use.size()));
     for (std::size_t r = 0; r < use.size(); ++r) {
       const ConstraintRow& row = rows[use[r]];

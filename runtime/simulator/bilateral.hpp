@@ -24,7 +24,6 @@ struct Reactive {
   std::vector<Eigen::Vector3d> force;         ///< F_r = JT lambda, N [n_particles]
   std::vector<Eigen::Vector3d> of_holds;      ///< the holds' part of it
   std::size_t redundant = 0;                  ///< rows that say what others say already
-  double largest_error = 0;                   ///< m, of |C| before the step
 };
 
 /// Rows of the holds (three of a point, one of a plane), the rods and the threads that are taut, at x and v.

@@ -16,7 +16,6 @@ class ConstraintSteps {
 
   TimeStep step(MotionState& state, double h);
   std::size_t redundant() const { return reactive_.redundant; }  ///< rows of the last step that repeat others
-  double largest_error() const { return reactive_.largest_error; }  ///< m, before the last step
 
  private:
   void find_active_forces(const MotionState& s, double h, TimeStep& report);

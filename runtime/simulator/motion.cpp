@@ -28,6 +28,7 @@ constexpr int kGrowAfter = 8;              // steps that go well, before one tha
 constexpr double kBodyStride = 0.75e-3;    // m, half the distance at which bodies begin to push
 constexpr double kOpen = 0.5;              // strain of seams that are still open
 constexpr double kSame = 1e-9;             // s
+constexpr double kSameShare = 1e-3;        // of a step
 constexpr int kLookAgain = 2000;           // explicit steps between two looks at their bound
 
 /// Of springs and of the threads in cut cells, where seams that are open stretch the cloth.
@@ -78,8 +79,10 @@ class Mover {
         return;
       }
       if (report_.motion.steps >= settings_.max_steps) return out_of_steps();
-      if (!step(std::min(end, frame))) return;
-      if (s_.time >= frame - kSame) {
+      const double same = kSameShare * step_;  // stops so near are one: a step between them is all rounding
+      const double stop = frame > end - same ? end : frame;
+      if (!step(stop)) return;
+      if (s_.time >= frame - same) {
         tell_frame();
         frame = next_frame();
       }
@@ -124,10 +127,10 @@ class Mover {
          fmt::format("explicit steps of {} s; this cloth needs {} s or less at {} s", format_number(step_, 3), format_number(bound, 3),
                      format_number(s_.time - begun_, 3)),
          {},
-         fmt::format("write `solver {} step {} us`, leave the step out, or take `solver implicit`; a fabric of less `damping` "
+         fmt::format("write `solver {} step {} ms`, leave the step out, or take `solver implicit`; a fabric of less `damping` "
                      "allows longer steps",
                      settings_.method == MotionMethod::dynamic_constraints ? "dynamic_constraints" : "explicit",
-                     format_number(std::floor(0.9e8 * bound) / 100, 3))});
+                     format_number(0.9e3 * bound, 3))});
     return false;
   }
 
@@ -147,10 +150,11 @@ class Mover {
   }
 
   double next_step(double stop) const {
-    double most = std::ldexp(step_, -halvings_);
+    double most = step_;
     const double speed = cloth_.body_speed(s_.x, s_.time, s_.time + most);
     if (speed > 0) most = std::min(most, kBodyStride / speed);
     const double left = stop - s_.time;
+    most = std::ldexp(std::min(most, left), -halvings_);
     return left / std::max(1.0, std::ceil(left / most - 1e-6));
   }
 
@@ -205,7 +209,7 @@ class Mover {
                                 fmt::format("after {} steps the garment has moved for {} of {} s", report_.motion.steps,
                                             format_number(s_.time - begun_, 4), format_number(settings_.duration, 4)),
                                 {},
-                                "allow more steps (`--max-steps`)"});
+                                "let the garment move for a shorter time, or take longer steps (`solver implicit step 10 ms`)"});
   }
 
   double next_frame() const {
@@ -263,7 +267,11 @@ DrapeReport move_on(const model::Model& model, const std::vector<body::Body>& bo
   DrapeReport report;
   if (state.position.empty()) state.position = model.start;
   if (is_open(model, state, report)) return report;
-  if (settings.method == MotionMethod::quasi_static) return follow_paths(model, bodies, state, settings);
+  if (settings.method == MotionMethod::quasi_static) {
+    report = follow_paths(model, bodies, state, settings);
+    look_at(model, state, bodies_at(bodies, model, state.time), report);
+    return report;
+  }
   Mover mover(model, bodies, state, settings, report);
   mover.go();
   mover.write(state);

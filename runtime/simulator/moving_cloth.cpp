@@ -242,13 +242,17 @@ void MovingCloth::held_motion(const Vectors& x, double h, Vectors& dx) const {
       const Vector3d n = moved_.hold_normal[k].normalized();
       with = n * n.dot(with);
       if (!begun[i]) dx[i] = holds_.filtered(i, dx[i]);
-    } else {
-      dx[i].setZero();
     }
     begun[i] = 1;
     const Vector3d late = off - with;
     const double size = late.norm(), most = kHoldSpeed * h;
-    dx[i] += with + (size > most ? Vector3d(late * (most / size)) : late);
+    const Vector3d way = with + (size > most ? Vector3d(late * (most / size)) : late);
+    if (moved_.hold_kind[k] == model::HoldKind::plane) {
+      const Vector3d n = moved_.hold_normal[k].normalized();
+      dx[i] += (way - dx[i]).dot(n) * n;  // not in sum: two holds may ask for the same
+    } else {
+      dx[i] = way;
+    }
   }
 }
 

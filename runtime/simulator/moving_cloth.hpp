@@ -42,7 +42,6 @@ class MovingCloth {
   const Holds& holds() const { return holds_; }
   std::size_t n() const { return moved_.n_particles(); }
   double rms_weight() const { return rms_weight_; }
-  double spacing() const { return spacing_; }
 
   /// Moves holds and bodies to where they are at `time`, s.
   void go_to(double time);

@@ -8,7 +8,6 @@
 
 #include "runtime/base/number.hpp"
 #include "runtime/model/motion.hpp"
-#include "runtime/simulator/certificate.hpp"
 #include "runtime/simulator/moved_bodies.hpp"
 #include "runtime/simulator/relaxation.hpp"
 
@@ -18,6 +17,7 @@ namespace {
 using Eigen::Vector3d;
 using Vectors = std::vector<Vector3d>;
 
+constexpr double kSame = 1e-9;  // s
 constexpr double kRestTimeStep = 0.25;   // s
 constexpr double kRestStep = 0.5e-3;     // m
 constexpr int kMostSteps = 600;          // of the relaxation, between two moments
@@ -85,7 +85,11 @@ class Follower {
 
   /// Time until something has gone by a part of the spacing, s.
   double stride(double end) const {
-    const double most = end - state_.time, look = std::min(most, 1e-3);
+    double most = end - state_.time;
+    for (const model::Motion& motion : start_.motions)  // speed changes at poses
+      for (const model::Pose& pose : motion.poses)
+        if (pose.time > state_.time + kSame) most = std::min(most, pose.time - state_.time);
+    const double look = std::min(most, 1e-3);
     double speed = 0;
     model::Model later = model::at_time(start_, state_.time + look);
     for (std::size_t h = 0; h < later.hold_point.size(); ++h)
@@ -187,10 +191,6 @@ DrapeReport follow_paths(const model::Model& model, const std::vector<body::Body
   (void)last.residual(state.position, force);
   report.reactions = last.reactions();
   report.energy = last.energy(state.position);
-  const Certificate certificate = certify(model, state, now);
-  report.self_intersections = certificate.self_intersections;
-  report.body_intersections = certificate.body_intersections;
-  report.inside_body = certificate.inside_body;
   return report;
 }
 

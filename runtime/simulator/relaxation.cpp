@@ -199,10 +199,16 @@ bool Relaxation::move_held(const Vectors& x, Vectors& dx) const {
   bool moved = false;
   for (std::size_t h = 0; h < model_.hold_particle.size(); ++h) {
     auto i = static_cast<std::size_t>(model_.hold_particle[h]);
-    Vector3d off = holds_.error(model_, h, x[i]);
-    double size = off.norm();
+    const Vector3d off = holds_.error(model_, h, x[i]);
+    const double size = off.norm();
     if (size < 1e-9) continue;
-    dx[i] += size > kHoldSpeed ? Vector3d(off * (kHoldSpeed / size)) : off;
+    const Vector3d way = size > kHoldSpeed ? Vector3d(off * (kHoldSpeed / size)) : off;
+    if (model_.hold_kind[h] == model::HoldKind::plane) {
+      const Vector3d n = model_.hold_normal[h].normalized();
+      dx[i] += (way - dx[i]).dot(n) * n;  // not in sum: two holds may ask for the same
+    } else {
+      dx[i] = way;
+    }
     moved = moved || size > 1e-5;
   }
   return moved;
