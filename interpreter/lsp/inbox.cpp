@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <chrono>
 
 namespace garment::lsp {
 namespace {
@@ -168,9 +169,9 @@ bool Inbox::waiting() {
   return !messages_.empty();
 }
 
-bool Inbox::waiting_within(std::chrono::milliseconds time) {
+bool Inbox::waiting_within(double seconds) {
   std::unique_lock lock(mutex_);
-  changed_.wait_for(lock, time, [&] { return !messages_.empty() || ended_; });
+  changed_.wait_for(lock, std::chrono::duration<double>(seconds), [&] { return !messages_.empty() || ended_; });
   return !messages_.empty();
 }
 

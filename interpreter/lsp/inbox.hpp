@@ -1,7 +1,6 @@
 #pragma once
 // Messages as they come in: a thread takes them off the byte stream, so that the server knows what waits
 // while it works.
-#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
@@ -38,7 +37,7 @@ class Inbox {
   /// True if a message waits.
   bool waiting();
   /// The same, but gives a message so long to come while the stream is open.
-  bool waiting_within(std::chrono::milliseconds time);
+  bool waiting_within(double seconds);
   /// True once the request was cancelled by a message that waits; forgets it.
   bool take_cancelled(const Json& id);
 

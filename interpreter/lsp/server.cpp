@@ -5,7 +5,7 @@
 namespace garment::lsp {
 namespace {
 
-constexpr std::chrono::milliseconds kPause{300};  // in the typing, after which the model is built: that takes a large garment half a second
+constexpr double kPause = 0.3;  // s in the typing, after which the model is built: that takes a large garment half a second
 
 constexpr int kInvalidRequest = -32600, kNoSuchMethod = -32601, kInvalidParams = -32602, kInternal = -32603;
 constexpr int kNotInitialized = -32002, kCancelled = -32800;

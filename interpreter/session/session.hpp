@@ -111,7 +111,7 @@ class Session {
   Answer drape_now(simulator::Settle settle);
   Answer release(const std::string& name);
   Answer save_files(const interpreter::SaveAct& act);
-  Answer move_now(Evaluated& evaluated, const interpreter::DrapeAct& act);
+  Answer move_now(Evaluated& evaluated, const interpreter::DrapeAct& act, grammar::Span span);
   Outcome drape(Stage& stage, bool from_present, std::string& text);
   Outcome carry_on(const Stage& before, Stage& stage, std::string& text);
 

@@ -102,7 +102,7 @@ Answer Session::perform(Evaluated& evaluated, const Act& act) {
     return refuse("G1504", "there is no model to drape or ask", help);
   }
   if (const auto* drape = std::get_if<interpreter::DrapeAct>(&act.act)) {
-    return drape->until_rest ? drape_now(drape->settle) : move_now(evaluated, *drape);
+    return drape->until_rest ? drape_now(drape->settle) : move_now(evaluated, *drape, act.span);
   }
   if (const auto* save = std::get_if<interpreter::SaveAct>(&act.act)) return save_files(*save);
   if (const auto* released = std::get_if<interpreter::ReleaseAct>(&act.act)) {
@@ -153,7 +153,7 @@ Answer Session::drape_now(simulator::Settle settle) {
 }
 
 /// Lets the garment move for a time, from where it hangs.
-Answer Session::move_now(Evaluated& evaluated, const interpreter::DrapeAct& act) {
+Answer Session::move_now(Evaluated& evaluated, const interpreter::DrapeAct& act, grammar::Span span) {
   const double begun = host_.seconds();
   Answer answer;
   Stage next = stage_;
@@ -167,8 +167,7 @@ Answer Session::move_now(Evaluated& evaluated, const interpreter::DrapeAct& act)
   next.shape.draped = true;
   next.shape.carried = false;
   next.shape.state = std::move(state);
-  answer.text = shown(interpreter::to_diagnostics(next.shape.report.findings, evaluated.result.origins), evaluated.sources,
-                      Severity::warning);
+  answer.text = shown(told_by(next.shape.report, evaluated.result, span), evaluated.sources, Severity::warning);
   answer.text += fmt::format("{}: {} s in {} steps{}\n", results::status_name(next.shape.report.status),
                              format_number(next.shape.report.motion.seconds, 4), next.shape.report.steps,
                              seconds_since(begun));

@@ -8,7 +8,7 @@ namespace garment::simulator {
 ///     |x - x^|^2_M / (2 beta^2) + E(x) + D(x),   M (x - x^) / beta^2 = f
 ///     implicit Euler   beta = h,      x^ = x_n + h v_n
 ///     BDF2             beta = 2h/3,   x^ = (4 x_n - x_(n-1)) / 3 + 2h (4 v_n - v_(n-1)) / 9
-/// It begins at x_n + h v_n + h^2 g, so that a free fall needs no iteration, or without g where that has more energy. Every
+/// It begins at x_n + h v_n + h^2 g, so that a free fall needs no iteration. Every
 /// iteration is cut back by walls between near parts and goes on until none is and the residual is small, so no momentum is
 /// lost to them. A step in which something comes to touch is made by implicit Euler: BDF2 would throw it back.
 class ImplicitSteps {

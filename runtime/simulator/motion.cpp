@@ -153,6 +153,9 @@ class Mover {
     double most = step_;
     const double speed = cloth_.body_speed(s_.x, s_.time, s_.time + most);
     if (speed > 0) most = std::min(most, kBodyStride / speed);
+    for (const model::Motion& motion : model_.motions)  // speed changes at poses
+      for (const model::Pose& pose : motion.poses)
+        if (pose.time > s_.time + kSameShare * step_) most = std::min(most, pose.time - s_.time);
     const double left = stop - s_.time;
     most = std::ldexp(std::min(most, left), -halvings_);
     return left / std::max(1.0, std::ceil(left / most - 1e-6));

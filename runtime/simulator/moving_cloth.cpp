@@ -82,6 +82,7 @@ MovingCloth::MovingCloth(const model::Model& model, const std::vector<body::Body
 void MovingCloth::go_to(double time) {
   if (start_.motions.empty()) return;
   model::move_holds(start_, time, moved_);
+  holds_ = Holds(moved_);  // planes tilt with what they move with
   placements_.assign(bodies_given_.size(), {});
   bool any = false;
   for (const model::Motion& m : start_.motions) {
@@ -194,19 +195,24 @@ Energies MovingCloth::energies(const Vectors& x, double h) {
   return e;
 }
 
-std::size_t MovingCloth::keep_apart(const Vectors& x, Vectors& dx) {
+std::size_t MovingCloth::stop_at_bodies(const Vectors& x, Vectors& dx) {
   std::size_t changed = 0;
+  for (std::size_t i = 0; !bodies_given_.empty() && i < dx.size(); ++i) {
+    const double size = dx[i].norm();
+    if (size <= kLeastRoom) continue;
+    const double most = std::max(kLeastRoom, bodies_.room(i, x[i]));
+    if (size <= most) continue;
+    dx[i] *= most / size;
+    ++changed;
+  }
+  return changed;
+}
+
+std::size_t MovingCloth::keep_apart(const Vectors& x, Vectors& dx) {
+  std::size_t changed = stop_at_bodies(x, dx);
   mean_.setZero();
-  if (!bodies_given_.empty())
-    for (std::size_t i = 0; i < dx.size(); ++i) {
-      const double size = dx[i].norm();
-      if (size <= kLeastRoom) continue;
-      const double most = std::max(kLeastRoom, bodies_.room(i, x[i]));
-      if (size <= most) continue;
-      dx[i] *= most / size;
-      ++changed;
-    }
   if (!mesh_.options.self) return changed;
+  const Vectors wish = dx;
   double mass = 0;
   const bool flies = moved_.hold_particle.empty();  // what is held does not follow the others
   for (std::size_t i = 0; flies && i < dx.size(); ++i) {
@@ -214,6 +220,17 @@ std::size_t MovingCloth::keep_apart(const Vectors& x, Vectors& dx) {
     mass += moved_.mass[i];
   }
   mean_ /= std::max(mass, 1e-300);
+  std::size_t cut = keep_layers_apart(x, dx);
+  // Cut back beside the mean way, a particle goes that way: into a body that had stopped it.
+  if (mean_.squaredNorm() > 0 && cut > 0 && stop_at_bodies(x, dx) > 0) {
+    dx = wish;
+    mean_.setZero();
+    cut = keep_layers_apart(x, dx);
+  }
+  return changed + cut;
+}
+
+std::size_t MovingCloth::keep_layers_apart(const Vectors& x, Vectors& dx) {
   relative_dx_.resize(dx.size());
   double largest = 0;
   for (std::size_t i = 0; i < dx.size(); ++i) {
@@ -229,7 +246,7 @@ std::size_t MovingCloth::keep_apart(const Vectors& x, Vectors& dx) {
   }
   if (cut.limited > 0 || cut.out_of_reach > 0)
     for (std::size_t i = 0; i < dx.size(); ++i) dx[i] = relative_dx_[i] + mean_;
-  return changed + cut.limited;
+  return cut.limited;
 }
 
 void MovingCloth::held_motion(const Vectors& x, double h, Vectors& dx) const {
@@ -302,7 +319,8 @@ double MovingCloth::body_speed(const Vectors& x, double from, double to) const {
     const model::Placement a = model::placement_at(m, from), b = model::placement_at(m, to);
     for (const Vector3d& v : bodies_given_[static_cast<std::size_t>(m.body)].mesh.vertices) {
       const Vector3d at = a.apply(v), way = b.apply(v) - at;
-      const bool near = (at.array() > low.array()).all() && (at.array() < high.array()).all();
+      const Vector3d end = at + way;
+      const bool near = (at.cwiseMax(end).array() > low.array()).all() && (at.cwiseMin(end).array() < high.array()).all();
       if (near || !fine_bodies_) most = std::max(most, way.norm() / (to - from));
     }
   }

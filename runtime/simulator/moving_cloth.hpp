@@ -121,6 +121,8 @@ class MovingCloth {
   ClothFriction cloth_friction_;
   Loads loads_;
   bool have_candidates_ = false;
+  std::size_t stop_at_bodies(const std::vector<Eigen::Vector3d>& x, std::vector<Eigen::Vector3d>& dx);
+  std::size_t keep_layers_apart(const std::vector<Eigen::Vector3d>& x, std::vector<Eigen::Vector3d>& dx);
   double spacing_ = 0.01, recent_motion_ = 0.005, rms_weight_ = 0;
   Eigen::Vector3d shift_{0, 0, 0};           // mean way of the cloth so far
   Eigen::Vector3d mean_{0, 0, 0};            // and that of the displacement at hand

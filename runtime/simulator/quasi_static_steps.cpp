@@ -80,6 +80,7 @@ class Follower {
 
   void place(double time) {
     model::move_holds(start_, time, moved_);
+    relaxation_.follow_holds();
     if (!start_.motions.empty()) relaxation_.place_bodies(placements_at(start_, bodies_.size(), time));
   }
 

@@ -62,6 +62,8 @@ class Relaxation {
 
   /// Moves the bodies from where they are given to where they are now.
   void place_bodies(const std::vector<model::Placement>& placements) { bodies_.place(placements, friction_); }
+  /// After the model's holds have moved: planes tilt with what they move with.
+  void follow_holds() { holds_ = Holds(model_); }
   void set_gravity_scale(double scale) { settings_.gravity_scale = scale; }
   void set_tensile_scale(double scale) { elastic_.set_tensile_scale(scale); }
   void set_time_step(double seconds) { time_step_ = seconds; }
