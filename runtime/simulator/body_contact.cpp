@@ -14,7 +14,6 @@ using Vectors = std::vector<Vector3d>;
 
 constexpr double kOnset = 1e-4;          // m, depth at which a push has its whole stiffness
 constexpr double kLastGap = 3e-4;        // m from the body, where it hardens
-constexpr double kHardening = 20;
 constexpr double kForeseenDepth = 5e-6;  // m, less costs no energy worth a second solution
 constexpr double kSearch = 0.25;         // m, how deep inside a body a particle may start
 

@@ -25,6 +25,8 @@ struct Push {
   double depth(const std::vector<Eigen::Vector3d>& x) const { return offset - (normal.dot(x[particle]) - plane); }
 };
 
+inline constexpr double kHardening = 20;  ///< of pushes 0.3 mm from a surface
+
 /// How a body pushes a particle that is `depth` (m) nearer than `offset` (m), k in N/m; convex, the force is continuous.
 ///   first 0.1 mm           softly, so that cloth which only lies on the body does not rattle between touching and not touching
 ///   then                   with stiffness k

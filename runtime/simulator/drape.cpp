@@ -53,22 +53,6 @@ struct Drape {
   }
 };
 
-double largest_spring_strain(const model::Model& model, const Vectors& x) {
-  double worst = 0;
-  for (std::size_t s = 0; s < model.spring.size(); ++s)
-    worst = std::max(worst, (x[model.spring[s][0]] - x[model.spring[s][1]]).norm() / model.spring_rest[s] - 1);
-  for (std::size_t m = 0; m < model.membrane.size(); ++m) {
-    const auto& w = model.membrane_weights[m];
-    Vector3d u = Vector3d::Zero(), v = Vector3d::Zero();
-    for (int k = 0; k < 3; ++k) {
-      u += w[k] * x[model.membrane[m][k]];
-      v += w[3 + k] * x[model.membrane[m][k]];
-    }
-    worst = std::max({worst, u.norm() - 1, v.norm() - 1});
-  }
-  return worst;
-}
-
 /// Names of the panels that hold the particles of a tangle, for messages.
 std::string panels_of(const model::Model& model, const ContactMesh& mesh, const Tangle& tangle, OriginId& origin) {
   std::vector<bool> hit(model.n_particles(), false);
@@ -125,7 +109,7 @@ class Way {
       return;
     }
     relaxation_.set_tensile_scale(kSoftTensile);
-    if (largest_spring_strain(d.model, d.x) > kClosedStrain) {
+    if (largest_thread_strain(d.model, d.x) > kClosedStrain) {
       stage_ = Stage::dressing;
       relaxation_.set_gravity_scale(0);
     }
@@ -174,10 +158,6 @@ class Way {
  private:
   enum class Stage { dressing, soft, settling };
 
-  static const std::vector<body::Body>& no_bodies() {
-    static const std::vector<body::Body> none;
-    return none;
-  }
   static RelaxationSettings relaxation_settings(const Drape& d) {
     RelaxationSettings settings;
     settings.self_collision = d.settings.self_collision;
@@ -188,7 +168,7 @@ class Way {
   void advance(const StepReport& step, double target) {
     if (stage_ == Stage::dressing) {
       if (steps_in_stage_ % kLookEvery != 0) return;
-      double strain = largest_spring_strain(d_.model, d_.x);
+      double strain = largest_thread_strain(d_.model, d_.x);
       // Closed, or as far closed as the body lets it (a garment smaller than its body stays stretched).
       bool closed = strain < kClosedStrain || strain > kClosingRate * last_strain_;
       last_strain_ = strain;
@@ -235,7 +215,7 @@ Index least_settled(const model::Model& model, const Vectors& force) {
 std::string advice(const Drape& d) {
   constexpr double kTornApart = 0.5;  // strain that no worn garment has
   constexpr double kFallen = 0.5;     // m, in the mean
-  const double strain = largest_spring_strain(d.model, d.x);
+  const double strain = largest_thread_strain(d.model, d.x);
   if (strain > kTornApart)
     return fmt::format("cloth is stretched by {}%: pieces sewn together start far apart, twisted or on the wrong side; look at the "
                        "pictures, at which ends meet in the seams, and where the pieces are placed",

@@ -8,6 +8,7 @@
 
 #include "runtime/base/number.hpp"
 #include "runtime/simulator/certificate.hpp"
+#include "runtime/simulator/cloth_contact.hpp"
 #include "runtime/simulator/constraint_steps.hpp"
 #include "runtime/simulator/explicit_steps.hpp"
 #include "runtime/simulator/implicit_steps.hpp"
@@ -30,22 +31,6 @@ constexpr double kOpen = 0.5;              // strain of seams that are still ope
 constexpr double kSame = 1e-9;             // s
 constexpr double kSameShare = 1e-3;        // of a step
 constexpr int kLookAgain = 2000;           // explicit steps between two looks at their bound
-
-/// Of springs and of the threads in cut cells, where seams that are open stretch the cloth.
-double largest_strain(const model::Model& m, const Vectors& x) {
-  double worst = 0;
-  for (std::size_t s = 0; s < m.spring.size(); ++s)
-    worst = std::max(worst, (x[m.spring[s][0]] - x[m.spring[s][1]]).norm() / m.spring_rest[s] - 1);
-  for (std::size_t k = 0; k < m.membrane.size(); ++k) {
-    Vector3d u = Vector3d::Zero(), v = Vector3d::Zero();
-    for (int c = 0; c < 3; ++c) {
-      u += m.membrane_weights[k][c] * x[m.membrane[k][c]];
-      v += m.membrane_weights[k][3 + c] * x[m.membrane[k][c]];
-    }
-    worst = std::max({worst, u.norm() - 1, v.norm() - 1});
-  }
-  return worst;
-}
 
 /// One motion under way.
 class Mover {
@@ -238,7 +223,7 @@ class Mover {
 };
 
 bool is_open(const model::Model& model, const model::State& state, DrapeReport& report) {
-  const double strain = largest_strain(model, state.position);
+  const double strain = largest_thread_strain(model, state.position);
   if (strain < kOpen) return false;
   report.status = DrapeStatus::not_settled;
   report.findings.push_back({"G0805", Severity::error,

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "runtime/base/parallel.hpp"
+#include "runtime/simulator/cloth_contact.hpp"
 #include "runtime/simulator/truncate.hpp"
 
 namespace garment::simulator {
@@ -13,27 +14,10 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Vectors = std::vector<Vector3d>;
 
-constexpr double kStandardGravity = 9.80665;  // m/s^2
-constexpr double kSelfOffset = 1.2e-3;        // m, least contact distance of cloth with cloth, as in a drape to rest
-constexpr double kContactStiffness = 100;     // N/m
 constexpr double kFrictionGive = 1e-5;        // m, by which what sticks gives way: cloth in motion feels its springs
 constexpr double kHoldSpeed = 1;              // m/s, of what is not yet where its hold is
 constexpr double kLeastRoom = 2e-3;           // m, that a particle may go in one iteration however near a body is
 constexpr double kNear = 0.05;                // m round the cloth, where the speed of bodies counts
-constexpr double kHardening = 20;             // of PushLaw
-
-const std::vector<body::Body>& no_bodies() {
-  static const std::vector<body::Body> none;
-  return none;
-}
-
-double mean_edge(const model::Model& model) {
-  double sum = 0;
-  std::size_t n = 0;
-  for (const auto& t : model.triangle)
-    for (int k = 0; k < 3; ++k, ++n) sum += (model.vertex_uv[t[k]] - model.vertex_uv[t[(k + 1) % 3]]).norm();
-  return n ? sum / static_cast<double>(n) : 0.01;
-}
 
 /// The model for the elastic forces alone.
 model::Model without_ties(model::Model m) {
@@ -133,24 +117,6 @@ double MovingCloth::contact_energy_sum(const std::vector<Contact>& contacts) con
   return sum;
 }
 
-void MovingCloth::add_contacts(bool with_matrix) {
-  contact_stiffness_.clear();
-  for (const Contact& c : contacts_) {
-    const ContactEnergy e = contact_energy(c.distance, c.contact_distance, kContactStiffness);
-    ContactStiffness s{{-1, -1, -1, -1}, {0, 0, 0, 0}, c.normal.cast<float>(), static_cast<float>(c.share * e.second)};
-    for (int k = 0; k < 4; ++k) {
-      if (c.p[k] < 0 || c.p[k] >= mesh_.n_particles || c.w[k] == 0) continue;
-      force_[c.p[k]] -= c.share * e.first * c.w[k] * c.normal;
-      if (!with_matrix) continue;
-      s.particle[k] = c.p[k];
-      s.weight[k] = static_cast<float>(c.w[k]);
-      matrix_.add_diagonal(static_cast<std::size_t>(c.p[k]),
-                           Matrix3d(c.share * e.second * c.w[k] * c.w[k] * c.normal * c.normal.transpose()));
-    }
-    if (with_matrix) contact_stiffness_.push_back(s);
-  }
-}
-
 Energies MovingCloth::assemble(const Vectors& x, const Vectors& v, double h, double time, bool with_matrix) {
   Energies e;
   refresh_candidates(x);
@@ -173,7 +139,7 @@ Energies MovingCloth::assemble(const Vectors& x, const Vectors& v, double h, dou
   e.dead_loads = loads_.energy(x);
   e.stored += weight_energy(x);
   if (!constrained_) return e;
-  add_contacts(with_matrix);
+  add_contact_forces(contacts_, kContactStiffness, force_, with_matrix ? &matrix_ : nullptr, contact_stiffness_);
   cloth_friction_.add_force(x, force_, with_matrix ? &matrix_ : nullptr, with_matrix ? &contact_stiffness_ : nullptr);
   bodies_.add_forces(x, force_, matrix_);
   friction_.add_force(x, force_, with_matrix ? &matrix_ : nullptr);

@@ -99,7 +99,6 @@ class MovingCloth {
  private:
   void refresh_candidates(const std::vector<Eigen::Vector3d>& x);
   void relative(const std::vector<Eigen::Vector3d>& x);
-  void add_contacts(bool with_matrix);
   double contact_energy_sum(const std::vector<Contact>& contacts) const;
   double weight_energy(const std::vector<Eigen::Vector3d>& x) const;
 

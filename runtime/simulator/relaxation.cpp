@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "runtime/base/parallel.hpp"
+#include "runtime/simulator/cloth_contact.hpp"
 #include "runtime/simulator/reactions.hpp"
 #include "runtime/simulator/truncate.hpp"
 
@@ -14,7 +15,6 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Vectors = std::vector<Vector3d>;
 
-constexpr double kStandardGravity = 9.80665; // m/s^2
 constexpr double kLargestTimeStep = 2.0;   // s
 constexpr double kSmallestTimeStep = 1e-4; // s
 constexpr double kLinearTolerance = 0.03;
@@ -29,20 +29,6 @@ constexpr double kLeastSwing = 2e-5;       // m
 constexpr double kLeastDamping = 10, kMostDamping = 1e4;  // N/m
 constexpr double kForgetDamping = 0.8;     // per step
 constexpr double kHoldSpeed = 5e-3;        // m per step towards a hold's place
-
-const std::vector<body::Body>& no_bodies() {
-  static const std::vector<body::Body> none;
-  return none;
-}
-
-/// Mean length of the triangles' edges in the flat pattern, m (in space the start may be stretched).
-double mean_edge(const model::Model& model) {
-  double sum = 0;
-  std::size_t n = 0;
-  for (const auto& t : model.triangle)
-    for (int k = 0; k < 3; ++k, ++n) sum += (model.vertex_uv[t[k]] - model.vertex_uv[t[(k + 1) % 3]]).norm();
-  return n ? sum / static_cast<double>(n) : 0.01;
-}
 
 double largest(const Vectors& v) {
   double best = 0;
@@ -131,27 +117,6 @@ double Relaxation::total_energy(const Vectors& x, std::vector<Contact>& contacts
          friction_.energy(x) + cloth_friction_.energy(x);
 }
 
-/// Forces of cloth on cloth, and with `with_stiffness` their second derivatives.
-void Relaxation::add_contacts(Vectors& force, bool with_stiffness) {
-  if (with_stiffness) stiffness_.clear();
-  const Index n = mesh_.n_particles;
-  for (const Contact& c : contacts_) {
-    ContactEnergy e = contact_energy(c.distance, c.contact_distance, settings_.contact_stiffness);
-    ContactStiffness s{{-1, -1, -1, -1}, {0, 0, 0, 0}, c.normal.cast<float>(), 0};
-    s.stiffness = static_cast<float>(c.share * e.second);
-    for (int k = 0; k < 4; ++k) {
-      if (c.p[k] < 0 || c.p[k] >= n || c.w[k] == 0) continue;
-      force[c.p[k]] -= c.share * e.first * c.w[k] * c.normal;
-      if (!with_stiffness) continue;
-      s.particle[k] = c.p[k];
-      s.weight[k] = static_cast<float>(c.w[k]);
-      matrix_.add_diagonal(static_cast<std::size_t>(c.p[k]),
-                           Matrix3d(c.share * e.second * c.w[k] * c.w[k] * c.normal * c.normal.transpose()));
-    }
-    if (with_stiffness) stiffness_.push_back(s);
-  }
-}
-
 void Relaxation::collect_normal_forces(const Vectors& x) {
   friction_.begin_step();
   bodies_.add_normal_forces(x, friction_);
@@ -180,7 +145,7 @@ double Relaxation::residual(const Vectors& x, Vectors& force) {
   elastic_.energy_and_force(x, force);
   add_external_forces(x, force);
   collect_normal_forces(x);
-  add_contacts(force, false);
+  add_contact_forces(contacts_, settings_.contact_stiffness, force, nullptr, stiffness_);
   cloth_friction_.begin(mesh_, candidates_, contacts_, settings_.contact_stiffness);
   cloth_friction_.add_force(x, force, nullptr, nullptr);
   reactions_ = simulator::reactions(model_, holds_, force);
@@ -226,7 +191,7 @@ double Relaxation::assemble(const Vectors& x, StepReport& report) {
   add_external_forces(x, force_);
   loads_.add_stiffness(matrix_, settings_.gravity_scale);
   collect_normal_forces(x);
-  add_contacts(force_, true);
+  add_contact_forces(contacts_, settings_.contact_stiffness, force_, &matrix_, stiffness_);
   cloth_friction_.begin(mesh_, candidates_, contacts_, settings_.contact_stiffness);
   cloth_friction_.add_force(x, force_, &matrix_, &stiffness_);
   net_ = force_;

@@ -9,6 +9,7 @@
 #include "runtime/model/model.hpp"
 #include "runtime/simulator/body_contact.hpp"
 #include "runtime/simulator/candidates.hpp"
+#include "runtime/simulator/cloth_contact.hpp"
 #include "runtime/simulator/cloth_friction.hpp"
 #include "runtime/simulator/contact.hpp"
 #include "runtime/simulator/contact_mesh.hpp"
@@ -23,8 +24,8 @@ namespace garment::simulator {
 
 struct RelaxationSettings {
   bool self_collision = true;
-  double self_offset = 1.2e-3;      ///< m, least contact distance of cloth with cloth
-  double contact_stiffness = 100;   ///< N/m, cloth against cloth
+  double self_offset = kSelfOffset;  ///< m, least contact distance of cloth with cloth
+  double contact_stiffness = kContactStiffness;  ///< N/m, cloth against cloth
   BodyContactSettings body;
   double friction_give = 3e-4;      ///< m, by which a contact with a body gives way before it slips
   double gravity_scale = 1;
@@ -88,7 +89,6 @@ class Relaxation {
   double total_energy(const std::vector<Eigen::Vector3d>& x, std::vector<Contact>& contacts) const;
   void add_external_forces(const std::vector<Eigen::Vector3d>& x, std::vector<Eigen::Vector3d>& force);
   void collect_normal_forces(const std::vector<Eigen::Vector3d>& x);
-  void add_contacts(std::vector<Eigen::Vector3d>& force, bool with_stiffness);
   double assemble(const std::vector<Eigen::Vector3d>& x, StepReport& report);
   void solve_step(const std::vector<Eigen::Vector3d>& x, StepReport& report);
   std::size_t foresee_contacts(const std::vector<Eigen::Vector3d>& x);
