@@ -45,18 +45,6 @@ bool turn(const MeshedPanel& p, std::vector<std::array<int, 3>>& list, bool cut,
   return false;
 }
 
-/// Where a stitched pleat ends on its edge both of its layers have the triangle between stitches and edge. Parting those would
-/// lead a side of one layer from that corner to the fold, through the other layer.
-bool closed_by_stitches(const std::vector<MeshedPanel>& panels, const std::vector<Place>& places) {
-  if (places.size() != 2 || places[0].panel != places[1].panel) return false;
-  const PanelMesh& mesh = panels[places[0].panel].mesh;
-  auto of = [&](const Place& place) { return place.cut ? mesh.cut[place.index] : mesh.cell_halves[place.index]; };
-  for (int v : of(places[0]))
-    for (int w : of(places[1]))
-      if (v == w) return false;
-  return true;
-}
-
 }  // namespace
 
 void part_twins(std::vector<MeshedPanel>& panels, const std::vector<Index>& particle) {
@@ -77,7 +65,7 @@ void part_twins(std::vector<MeshedPanel>& panels, const std::vector<Index>& part
     if (places.size() > 1) twins.push_back(corners);
   for (const Corners& corners : twins) {
     std::vector<Place> places = triangles[corners];
-    bool parted = closed_by_stitches(panels, places);
+    bool parted = false;
     for (std::size_t i = places.size(); i-- > 0 && !parted;) {
       MeshedPanel& p = panels[places[i].panel];
       auto& list = places[i].cut ? p.mesh.cut : p.mesh.cell_halves;

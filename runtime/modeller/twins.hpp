@@ -5,8 +5,7 @@ namespace garment::modeller {
 
 /// Sewing can lay two triangles onto the same three particles (where a border is folded onto itself, or two
 /// panels meet round a corner). Turns a diagonal of one of them, within its cell or among cut triangles, so
-/// that no two triangles share all their corners. Twins that no diagonal parts are left, and the two layers of one panel in
-/// the corner of a stitched pleat: they lie on each other there.
+/// that no two triangles share all their corners. Twins that no diagonal parts are left.
 void part_twins(std::vector<MeshedPanel>& panels, const std::vector<model::Index>& particle);
 
 }  // namespace garment::modeller
