@@ -125,6 +125,32 @@ TEST_CASE("the contact energy and its derivatives", "[collision]") {
   CHECK(std::isfinite(contact_energy(0, r, k).value));
 }
 
+TEST_CASE("a step's coming contacts are those that it closes, not those that act or that it leaves open", "[collision]") {
+  const model::Model m = stacked(0.003, 0.001);  // 3 mm apart, 1 mm thick
+  const ContactMesh mesh(m, {});
+  Candidates candidates;
+  candidates.rebuild(mesh, m.start, 0.02);
+  const std::size_t lower = 81;  // particles of the lower sheet
+  auto coming = [&](double down) {
+    std::vector<Vector3d> dx(m.n_particles(), Vector3d::Zero());
+    for (std::size_t i = lower; i < dx.size(); ++i) dx[i] = {0.001, -down, 0};
+    std::vector<Contact> contacts;
+    coming_contacts(mesh, candidates, m.start, dx, contacts);
+    return contacts;
+  };
+  CHECK(coming(0.0015).empty());
+  CHECK(coming(-0.0015).empty());
+  const std::vector<Contact> closed = coming(0.0025);
+  CHECK(closed.size() >= 36);  // every particle of the upper sheet at least
+  for (const Contact& c : closed) {
+    CHECK(c.distance >= c.contact_distance);
+    double after = c.distance;
+    for (int k = 0; k < 4; ++k)
+      if (c.p[k] >= static_cast<Index>(lower)) after += c.w[k] * c.normal.dot(Vector3d(0.001, -0.0025, 0));
+    CHECK(after < c.contact_distance);
+  }
+}
+
 TEST_CASE("contact forces are minus the gradient of the contact energy", "[collision]") {
   Random random(8);
   for (int trial = 0; trial < 6; ++trial) {
