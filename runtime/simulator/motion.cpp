@@ -23,6 +23,7 @@ using Eigen::Vector3d;
 using Vectors = std::vector<Vector3d>;
 
 constexpr double kUsualStep = 1.0 / 240;   // s, of implicit steps
+constexpr double kSemiStep = 1.0 / 60;     // s, of semi-implicit ones
 constexpr double kShareOfBound = 0.9;      // of the stability bound, where no step is stated
 constexpr int kMostHalvings = 6;
 constexpr int kGrowAfter = 8;              // steps that go well, before one that was halved is doubled
@@ -42,7 +43,8 @@ class Mover {
         report_(report),
         cloth_(model, bodies, settings.self_collision, state.time,
                settings.method == MotionMethod::dynamic_constraints ? MovingCloth::Acts::without_constraints : MovingCloth::Acts::all),
-        implicit_(cloth_, settings.tolerance),
+        implicit_(cloth_, settings.tolerance,
+                  settings.method == MotionMethod::semi_implicit ? ImplicitSteps::Effort::one_solve : ImplicitSteps::Effort::converged),
         explicit_(cloth_),
         constraints_(cloth_, model),
         begun_(state.time) {
@@ -82,7 +84,9 @@ class Mover {
   }
 
  private:
-  bool is_explicit() const { return settings_.method != MotionMethod::implicit; }
+  bool is_explicit() const {
+    return settings_.method == MotionMethod::explicit_steps || settings_.method == MotionMethod::dynamic_constraints;
+  }
 
   TimeStep one_step(double h) {
     if (settings_.method == MotionMethod::dynamic_constraints) return constraints_.step(s_, h);
@@ -100,7 +104,7 @@ class Mover {
 
   /// False, with a finding, where the stated step is too long.
   bool find_step() {
-    step_ = settings_.step > 0 ? settings_.step : kUsualStep;
+    step_ = settings_.step > 0 ? settings_.step : settings_.method == MotionMethod::semi_implicit ? kSemiStep : kUsualStep;
     if (!is_explicit()) return true;
     const double bound = explicit_.stable_step(s_.x);
     report_.motion.stable_step = bound;
