@@ -27,7 +27,7 @@ constexpr double kSemiStep = 1.0 / 60;     // s, of semi-implicit ones
 constexpr double kShareOfBound = 0.9;      // of the stability bound, where no step is stated
 constexpr int kMostHalvings = 6;
 constexpr int kGrowAfter = 8;              // steps that go well, before one that was halved is doubled
-constexpr double kBodyStride = 0.75e-3;    // m, half the distance at which bodies begin to push
+constexpr double kBodyStride = 0.5;        // of the distance at which bodies begin to push
 constexpr double kOpen = 0.5;              // strain of seams that are still open
 constexpr double kSame = 1e-9;             // s
 constexpr double kSameShare = 1e-3;        // of a step
@@ -141,7 +141,7 @@ class Mover {
   double next_step(double stop) const {
     double most = step_;
     const double speed = cloth_.body_speed(s_.x, s_.time, s_.time + most);
-    if (speed > 0) most = std::min(most, kBodyStride / speed);
+    if (speed > 0) most = std::min(most, kBodyStride * cloth_.push_distance() / speed);
     for (const model::Motion& motion : model_.motions)  // speed changes at poses
       for (const model::Pose& pose : motion.poses)
         if (pose.time > s_.time + kSameShare * step_) most = std::min(most, pose.time - s_.time);

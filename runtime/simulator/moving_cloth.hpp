@@ -93,6 +93,8 @@ class MovingCloth {
 
   /// Speed of the fastest part of a body near the cloth at x, between two times, m/s (0: none moves).
   double body_speed(const std::vector<Eigen::Vector3d>& x, double from, double to) const;
+  /// Least distance at which bodies begin to push a particle, m.
+  double push_distance() const { return bodies_.least_distance(); }
   /// Bound on the stiffness that contacts may add to one particle, N/m.
   double largest_contact_stiffness() const;
 
