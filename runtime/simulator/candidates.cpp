@@ -39,15 +39,15 @@ void collect(std::size_t n, std::vector<Pair>& out, const Query& query) {
 
 float below(double distance) { return static_cast<float>(std::max(0.0, distance * (1 - 1e-6) - 1e-12)); }
 
-/// Where parts (or nodes of a tree) are during a step, and how far from the reference they are at its start and end.
+/// Where parts (or nodes of a tree) are, how far from the reference, and how far they go in a step.
 struct BoxesOfMotion {
-  std::vector<FloatBox> at, moved, will_move;  // the last is empty where there is no step
+  std::vector<FloatBox> at, moved, step;  // the last is empty where there is no step
 
   /// Two that have moved by no more than `most` against each other, or that do not come nearer than `least`.
   bool apart(std::int32_t a, std::int32_t b, float most, double least) const {
-    const bool together = moved[a].largest_difference(moved[b]) <= most &&
-                          (will_move.empty() || will_move[a].largest_difference(will_move[b]) <= most);
-    return together || !at[a].inflated(least).meets(at[b]);
+    const float going = step.empty() ? 0.0F : step[a].largest_difference(step[b]);
+    if (moved[a].largest_difference(moved[b]) + going <= most) return true;
+    return !at[a].inflated(least + going).meets(at[b]);
   }
 };
 
@@ -149,20 +149,18 @@ bool Candidates::complete(const ContactMesh& mesh, const std::vector<Vector3d>& 
   if (x.size() != reference_.size()) return false;
   if (!mesh.options.self) return true;
   const Bvh& tree = mesh.cloth_triangle_tree;
-  std::vector<FloatBox> at(mesh.n_cloth_triangles), moved(at.size()), will_move(dx ? at.size() : 0);
+  std::vector<FloatBox> at(mesh.n_cloth_triangles), moved(at.size()), step(dx ? at.size() : 0);
   parallel_for(at.size(), 2048, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t)
       for (Index p : mesh.triangle[t]) {
         at[t].grow(x[p]);
         moved[t].grow(x[p] - reference_[p]);
-        if (!dx) continue;
-        at[t].grow(x[p] + (*dx)[p]);
-        will_move[t].grow(x[p] + (*dx)[p] - reference_[p]);
+        if (dx) step[t].grow((*dx)[p]);
       }
   });
   const auto most = static_cast<float>((radius_ - least) * (1 - 1e-5));
-  const BoxesOfMotion node{tree.node_boxes(at), tree.node_boxes(moved), tree.node_boxes(will_move)};
-  const BoxesOfMotion part{std::move(at), std::move(moved), std::move(will_move)};
+  const BoxesOfMotion node{tree.node_boxes(at), tree.node_boxes(moved), tree.node_boxes(step)};
+  const BoxesOfMotion part{std::move(at), std::move(moved), std::move(step)};
   return !tree.any_pair([&](std::int32_t a, std::int32_t b) { return node.apart(a, b, most, least); },
                         [&](std::int32_t a, std::int32_t b) { return !part.apart(a, b, most, least); });
 }

@@ -345,13 +345,15 @@ TruncateStats truncate(const ContactMesh& mesh, const Candidates& candidates, co
     stats.out_of_reach = stay_within_reach(candidates, x, dx);
     within_reach = true;
   }
+  bool shortened = false;  // since the walls were last looked at
   for (int search = 0;; ++search) {
-    if (add_walls(mesh, candidates, x, dx, search >= kSearches, options.fraction, walled, walls) > 0) {
+    if (add_walls(mesh, candidates, x, dx, search >= kSearches, options.fraction, walled, walls) > 0 || shortened) {
       Passage passage(walls, x, within_reach ? &candidates : nullptr, dx);
       stats.walls += passage.go(options.fraction);
+      shortened = false;
     } else if (!within_reach && search > 0 && !candidates.complete(mesh, x, &dx, kLeastGap)) {
       stats.out_of_reach = stay_within_reach(candidates, x, dx);
-      within_reach = true;
+      within_reach = shortened = true;
     } else {
       break;
     }
