@@ -105,7 +105,7 @@ class Placer {
     const Expr& expr = clauses_.value(clause);
     const BodyPlaceValue place = side ? eval_body_place(program_, expr, *clause.scope, "`on` takes a side of a body") : round(expr, *clause.scope);
     placement_.kind = kind;
-    placement_.part = place.path == kWhole ? "torso" : checked_part(program_, place, expr.span, side);
+    placement_.part = place.path == kWhole ? kWhole : checked_part(program_, place, expr.span, side);
     placement_.body = program_.garment.bodies[static_cast<std::size_t>(place.body)].name;
     if (const auto offset = clauses_.quantity("offset")) placement_.offset = *offset;
     const BoundClause* with = clauses_.find("with");
