@@ -7,6 +7,7 @@
 
 #include "runtime/base/number.hpp"
 #include "runtime/design/fineness.hpp"
+#include "runtime/modeller/corner_fans.hpp"
 #include "runtime/modeller/crossing.hpp"
 #include "runtime/modeller/slits.hpp"
 
@@ -127,6 +128,7 @@ std::optional<PanelMesh> mesh_panel(const BorderPanel& panel, const GridFrame& f
     report_coarse(panel, "its border runs too close to itself", 0.5 * panel.h, findings);
     return std::nullopt;
   }
+  fan_out_corners(loop, mesh);
   if (border.half > 0) mesh = unfold(mesh, n_right, n_fold);
   if (mesh.at.size() == border.at.size()) {
     report_coarse(panel, "no particle fits inside its border", fits, findings);
