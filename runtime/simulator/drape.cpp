@@ -9,6 +9,7 @@
 #include "runtime/base/number.hpp"
 #include "runtime/simulator/certificate.hpp"
 #include "runtime/simulator/relaxation.hpp"
+#include "runtime/simulator/solver_state.hpp"
 
 namespace garment::simulator {
 namespace {
@@ -118,7 +119,9 @@ class Way {
   DrapeStatus go() {
     double target = target_residual(d_.settings.settle);
     while (d_.report.steps < d_.settings.max_steps) {
-      if (d_.stop_asked()) return DrapeStatus::interrupted;
+      const bool stop = d_.stop_asked();
+      d_.settings.checkpoints.look(*this, stop);
+      if (stop) return DrapeStatus::interrupted;
       before_ = d_.x;
       StepReport step = relaxation_.step(d_.x);
       ++d_.report.steps;
@@ -154,6 +157,19 @@ class Way {
   }
 
   Relaxation& relaxation() { return relaxation_; }
+
+  /// In a checkpoint between two steps.
+  void keep(Archive& a) {
+    keep_positions(a, d_.x, d_.model.n_particles(), relaxation_.mesh().largest_contact_distance);
+    a.keep(stage_, Stage::settling);
+    for (int* count : {&steps_in_stage_, &refused_, &repairs_, &d_.report.steps}) {
+      a.keep(*count);
+      a.demand(*count >= 0 && *count <= kMostCounted);
+    }
+    a.keep(last_strain_);
+    a.keep_any(d_.report.newton_step);
+    relaxation_.keep(a);
+  }
 
  private:
   enum class Stage { dressing, soft, settling };
@@ -254,6 +270,14 @@ void explain(Drape& d, const ContactMesh& all, const Vectors& force) {
 
 }  // namespace
 
+DrapeReport not_resumed() {
+  DrapeReport report;
+  report.status = DrapeStatus::not_resumed;
+  report.findings.push_back({"G0810", Severity::error, "the checkpoint holds no state that this drape could have been in", {},
+                             "run it from the start, without `--resume`"});
+  return report;
+}
+
 double target_residual(Settle settle) {
   switch (settle) {
     case Settle::preview: return 0.3;
@@ -269,6 +293,7 @@ DrapeReport drape(const model::Model& model, const std::vector<body::Body>& bodi
   Drape d{model, bodies, settings, report, state.position.empty() ? model.start : state.position};
   ContactMesh all(model, bodies, ContactOptions{settings.self_collision, 0, 0});
   Way way(d, all);
+  if (!settings.checkpoints.resume.empty() && !settings.checkpoints.restore(way)) return not_resumed();
   report.status = way.go();
   Vectors force;
   report.residual = way.relaxation().residual(d.x, force);

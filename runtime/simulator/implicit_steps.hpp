@@ -17,6 +17,7 @@ class ImplicitSteps {
   ImplicitSteps(MovingCloth& cloth, double tolerance) : cloth_(cloth), tolerance_(tolerance) {}
 
   TimeStep step(MotionState& state, double h);
+  void keep(Archive& a);  ///< in a checkpoint
 
  private:
   enum class Scheme { euler, bdf2 };

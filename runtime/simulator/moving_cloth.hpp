@@ -95,6 +95,8 @@ class MovingCloth {
   double body_speed(const std::vector<Eigen::Vector3d>& x, double from, double to) const;
   /// Bound on the stiffness that contacts may add to one particle, N/m.
   double largest_contact_stiffness() const;
+  /// In a checkpoint between two steps, at `time`, s.
+  void keep(Archive& a, double time);
 
  private:
   void refresh_candidates(const std::vector<Eigen::Vector3d>& x);
