@@ -79,7 +79,7 @@ class Placer {
                              around->clause->span));
     if (on != nullptr) wrap(*on, design::Placement::Kind::on_part);
     if (around != nullptr) wrap(*around, design::Placement::Kind::around);
-    if (on == nullptr && around == nullptr) rigid();
+    if (on == nullptr && around == nullptr && !only_how_it_begins()) rigid();
     if (const BoundClause* start = clauses_.find("start")) {
       const Expr& word = clauses_.value(*start);
       if (word.kind != ExprKind::name || word.text != "folded")
@@ -91,6 +91,13 @@ class Placer {
   }
 
  private:
+  /// `place front start folded`: where it lies comes from its seams.
+  bool only_how_it_begins() {
+    for (const char* word : {"at", "flat", "turn", "with", "offset"})
+      if (clauses_.find(word) != nullptr) return false;
+    return clauses_.find("start") != nullptr;
+  }
+
   void wrap(const BoundClause& clause, design::Placement::Kind kind) {
     const bool side = kind == design::Placement::Kind::on_part;
     const Expr& expr = clauses_.value(clause);

@@ -228,6 +228,7 @@ class Unparser {
     std::string part = fmt::format("{}.{}", body_called(place.body), place.part);
     switch (place.kind) {
       case Placement::Kind::none:
+        if (place.folded) line(statement + " start folded");
         return;
       case Placement::Kind::rigid: {
         statement += " at " + text::point(place.translation);

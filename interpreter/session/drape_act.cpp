@@ -36,6 +36,7 @@ simulator::DrapeReport for_a_time(double duration, const DrapeScene& scene, mode
   if (scene.script.garment.scene.solver) settings.step = scene.script.garment.scene.solver->step;
   settings.progress = scene.settings.progress;
   settings.interrupted = scene.settings.interrupted;
+  settings.checkpoints = scene.settings.checkpoints;
   Recorder* recorder = scene.recorder;
   if (recorder != nullptr && !recorder->idle()) {
     settings.next_frame = [recorder](double after) { return recorder->next(after); };
@@ -44,7 +45,7 @@ simulator::DrapeReport for_a_time(double duration, const DrapeScene& scene, mode
     };
   }
   simulator::DrapeReport report = simulator::move_on(scene.model, scene.bodies, state, settings);
-  if (recorder != nullptr) recorder->write_tables();
+  if (recorder != nullptr && report.status != simulator::DrapeStatus::not_resumed) recorder->write_tables();
   return report;
 }
 

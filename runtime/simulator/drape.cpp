@@ -8,6 +8,7 @@
 
 #include "runtime/base/number.hpp"
 #include "runtime/simulator/certificate.hpp"
+#include "runtime/simulator/culprit.hpp"
 #include "runtime/simulator/relaxation.hpp"
 #include "runtime/simulator/solver_state.hpp"
 
@@ -46,6 +47,7 @@ struct Drape {
   const DrapeSettings& settings;
   DrapeReport& report;
   Vectors x;
+  Vectors infinite{};  // where positions became no numbers
 
   bool stop_asked() const { return settings.interrupted && settings.interrupted(); }
   void tell(const StepReport& step, const char* phase) const {
@@ -127,6 +129,7 @@ class Way {
       ++d_.report.steps;
       ++steps_in_stage_;
       if (!all_finite(d_.x)) {
+        d_.infinite.swap(d_.x);
         d_.x = before_;
         return DrapeStatus::diverged;
       }
@@ -219,14 +222,6 @@ class Way {
   Vectors before_;
 };
 
-/// The panel that the largest share of the net forces acts on, for messages.
-Index least_settled(const model::Model& model, const Vectors& force) {
-  std::vector<double> sum(model.panels.size(), 0);
-  for (std::size_t v = 0; v < model.n_vertices(); ++v)
-    sum[model.vertex_panel[v]] += force[model.vertex_particle[v]].squaredNorm();
-  return static_cast<Index>(std::max_element(sum.begin(), sum.end()) - sum.begin());
-}
-
 /// What most likely keeps the garment from rest.
 std::string advice(const Drape& d) {
   constexpr double kTornApart = 0.5;  // strain that no worn garment has
@@ -255,17 +250,16 @@ void explain(Drape& d, const ContactMesh& all, const Vectors& force) {
                         "place the panels farther from the body and from each other, or in the order in which they are worn"});
   }
   if (d.report.status == DrapeStatus::not_settled) {
-    const model::PanelRange& panel = d.model.panels[least_settled(d.model, force)];
+    const Culprit panel = panel_with_most(d.model, force);
     findings.push_back({"G0802", Severity::error,
-                        fmt::format("after {} steps the residual is {} of the weight, {} is rest; most of it is in `{}`",
+                        fmt::format("after {} steps the residual is {} of the weight, {} is rest; most of it is in {}",
                                     d.report.steps, format_number(d.report.residual, 3),
                                     format_number(target_residual(d.settings.settle), 3), panel.name),
                         {{panel.origin, "most of the net force acts here"}},
                         advice(d)});
   }
   if (d.report.status == DrapeStatus::diverged)
-    findings.push_back({"G0803", Severity::error, "the positions became infinite; the last finite state was kept", {},
-                        "check the fabric for extreme stiffness or density, and the resolution"});
+    findings.push_back(infinite_positions(d.model, d.infinite));
 }
 
 }  // namespace

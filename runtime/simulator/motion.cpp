@@ -11,6 +11,7 @@
 #include "runtime/simulator/certificate.hpp"
 #include "runtime/simulator/cloth_contact.hpp"
 #include "runtime/simulator/constraint_steps.hpp"
+#include "runtime/simulator/culprit.hpp"
 #include "runtime/simulator/explicit_steps.hpp"
 #include "runtime/simulator/implicit_steps.hpp"
 #include "runtime/simulator/moved_bodies.hpp"
@@ -155,7 +156,7 @@ class Mover {
         return !is_explicit() || report_.motion.steps % kLookAgain != 0 || find_step();
       }
       report_.residual = t.residual;
-      if (++halvings_ > kMostHalvings) return stuck();
+      if (++halvings_ > kMostHalvings) return stuck(t.unborne.empty() ? s_.v : t.unborne);
       well_ = 0;
     }
   }
@@ -207,14 +208,16 @@ class Mover {
                                 "nothing is to be done: they share the force; a particle that is both pinned and constrained has such rows"});
   }
 
-  bool stuck() {
+  /// `unsolved`: what is left of the equations, or what else tells panels that are at rest from others.
+  bool stuck(const Vectors& unsolved) {
+    const Culprit panel = panel_with_most(model_, unsolved);
     const bool finite = std::isfinite(report_.residual);
     report_.status = DrapeStatus::diverged;
     report_.findings.push_back(
         {"G0807", Severity::error,
-         fmt::format("at {} s no step of {} s or less could be made; the state before it was kept", format_number(s_.time - begun_, 4),
-                     format_number(std::ldexp(step_, -kMostHalvings), 3)),
-         {},
+         fmt::format("at {} s no step of {} s or less could be made, most of what is left is in {}; the state before it was kept",
+                     format_number(s_.time - begun_, 4), format_number(std::ldexp(step_, -kMostHalvings), 3), panel.name),
+         {{panel.origin, "most of what is left acts here"}},
          finite ? "let the garment come to rest first (`drape until rest`), or move what moves it more slowly"
                 : "check the fabric for extreme stiffness or density, and the resolution"});
     return false;
@@ -222,10 +225,11 @@ class Mover {
 
   void out_of_steps() {
     report_.status = DrapeStatus::not_settled;
+    const Culprit panel = panel_with_most(model_, s_.v);
     report_.findings.push_back({"G0802", Severity::error,
-                                fmt::format("after {} steps the garment has moved for {} of {} s", report_.motion.steps,
-                                            format_number(s_.time - begun_, 4), format_number(settings_.duration, 4)),
-                                {},
+                                fmt::format("after {} steps the garment has moved for {} of {} s; {} moves most", report_.motion.steps,
+                                            format_number(s_.time - begun_, 4), format_number(settings_.duration, 4), panel.name),
+                                {{panel.origin, "it moves most"}},
                                 "let the garment move for a shorter time, or take longer steps (`solver implicit step 10 ms`)"});
   }
 

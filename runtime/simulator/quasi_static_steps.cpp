@@ -8,6 +8,7 @@
 
 #include "runtime/base/number.hpp"
 #include "runtime/model/motion.hpp"
+#include "runtime/simulator/culprit.hpp"
 #include "runtime/simulator/moved_bodies.hpp"
 #include "runtime/simulator/relaxation.hpp"
 #include "runtime/simulator/solver_state.hpp"
@@ -139,10 +140,9 @@ class Follower {
       const StepReport step = relaxation_.step(state_.position);
       ++report_.steps;
       if (!std::all_of(state_.position.begin(), state_.position.end(), [](const Vector3d& p) { return p.allFinite(); })) {
+        report_.findings.push_back(infinite_positions(start_, state_.position));
         state_.position = before;
         report_.status = DrapeStatus::diverged;
-        report_.findings.push_back({"G0803", Severity::error, "the positions became infinite; the last finite state was kept", {},
-                                    "check the fabric for extreme stiffness or density, and the resolution"});
         return false;
       }
       report_.residual = step.residual;
@@ -155,11 +155,14 @@ class Follower {
       if (steps_ > 0 && step.residual <= target && judged && held_in_place()) return true;
     }
     report_.status = DrapeStatus::not_settled;
+    Vectors force;
+    relaxation_.residual(state_.position, force);
+    const Culprit panel = panel_with_most(start_, force);
     report_.findings.push_back({"G0802", Severity::error,
-                                fmt::format("at {} s the residual is {} of the weight after {} steps, {} is rest",
-                                            format_number(state_.time, 4), format_number(report_.residual, 3), kMostSteps,
-                                            format_number(target_residual(Settle::equilibrium), 3)),
-                                {},
+                                fmt::format("at {} s the residual is {} of the weight after {} steps, {} is rest; most of it is in {}",
+                                            format_number(state_.time, 4), format_number(report_.residual, 3), steps_,
+                                            format_number(target_residual(Settle::equilibrium), 3), panel.name),
+                                {{panel.origin, "most of the net force acts here"}},
                                 "move it less far, or let the cloth move in earnest: leave `solver quasi_static` out"});
     return false;
   }
