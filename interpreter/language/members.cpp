@@ -194,15 +194,31 @@ Value thing_member(Program& program, const Expr& expr, const ThingValue& thing, 
   fail_member(program, expr, std::string(thing.keyword) + " `" + thing.declaration->name + "`", name, names);
 }
 
+/// The part that `expr` names, itself or inside of other parts; null where it names none. Nothing else is evaluated for it.
+const Part* named_part(Program& program, const Expr& expr, Scope& scope) {
+  Declaration* declaration = nullptr;
+  if (expr.kind == ExprKind::name) {
+    declaration = find_declaration(scope, name_of(program, expr, scope));
+  } else if (expr.kind == ExprKind::member) {
+    const Part* outer = named_part(program, expr.children[0], scope);
+    if (outer == nullptr) return nullptr;
+    const auto found = outer->scope->declared.find(name_of(program, expr, scope));
+    if (found != outer->scope->declared.end()) declaration = found->second;
+  }
+  if (declaration == nullptr || declaration->statement->keyword.text != "part") return nullptr;
+  const Value value = force(program, *declaration, expr.span);
+  const auto* thing = value.as<ThingValue>();
+  return thing == nullptr ? nullptr : &program.parts[static_cast<std::size_t>(thing->index)];
+}
+
 /// `sleeves.upper.left` of a part whose component has a `pair panel upper`: a declared name of the part with a dot in it.
 Declaration* dotted_declaration_of_part(Program& program, const Expr& expr, const std::string& name, Scope& scope) {
   const Expr& base = expr.children[0];
   if (base.kind != ExprKind::member || (name != "left" && name != "right")) return nullptr;
+  const Part* part = named_part(program, base.children[0], scope);
+  if (part == nullptr) return nullptr;
   const std::string member = name_of(program, base, scope);
-  const Value owner = eval(program, base.children[0], scope);
-  const auto* part = owner.as<ThingValue>();
-  if (part == nullptr || part->keyword != "part") return nullptr;
-  const auto& declared = program.parts[static_cast<std::size_t>(part->index)].scope->declared;
+  const auto& declared = part->scope->declared;
   if (declared.find(member) != declared.end()) return nullptr;
   const auto found = declared.find(member + '.' + name);
   return found == declared.end() ? nullptr : found->second;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "runtime/base/number.hpp"
@@ -264,6 +265,8 @@ void explain(Drape& d, const ContactMesh& all, const Vectors& force) {
 
 }  // namespace
 
+double number_or_infinite(double value) { return std::isnan(value) ? std::numeric_limits<double>::infinity() : value; }
+
 DrapeReport not_resumed() {
   DrapeReport report;
   report.status = DrapeStatus::not_resumed;
@@ -290,7 +293,7 @@ DrapeReport drape(const model::Model& model, const std::vector<body::Body>& bodi
   if (!settings.checkpoints.resume.empty() && !settings.checkpoints.restore(way)) return not_resumed();
   report.status = way.go();
   Vectors force;
-  report.residual = way.relaxation().residual(d.x, force);
+  report.residual = number_or_infinite(way.relaxation().residual(d.x, force));
   report.energy = way.relaxation().energy(d.x);
   report.reactions = way.relaxation().reactions();
   state.position = d.x;

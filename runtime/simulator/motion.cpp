@@ -155,7 +155,7 @@ class Mover {
         count(t, h);
         return !is_explicit() || report_.motion.steps % kLookAgain != 0 || find_step();
       }
-      report_.residual = t.residual;
+      report_.residual = number_or_infinite(t.residual);
       if (++halvings_ > kMostHalvings) return stuck(t.unborne.empty() ? s_.v : t.unborne);
       well_ = 0;
     }

@@ -13,6 +13,9 @@ namespace garment::simulator {
 
 inline constexpr int kMostCounted = 1 << 30;  ///< steps that a checkpoint may have counted
 
+/// Reports hold no NaN: what is no number is too large for one.
+double number_or_infinite(double value);
+
 /// Positions of `n` particles, within 1,000 km; refuses what no cloth is: more particles in places of the size `reach` (m) than the
 /// lists of pairs could bear.
 void keep_positions(Archive& a, std::vector<model::Vector3d>& x, std::size_t n, double reach);
