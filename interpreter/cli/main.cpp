@@ -103,9 +103,9 @@ int main(int argc, char** argv) {
   run_command->add_flag("--ply", o.run.ply, "also write garment.ply, with strain");
   run_command->add_option("--paper", o.paper, "sheets of a .pdf pattern: " + garment::io::paper_names())->capture_default_str();
   run_command->add_flag("--resume", o.run.checkpoints.resume, "go on from the last checkpoint in the results folder");
-  run_command->add_option("--checkpoint", o.run.checkpoints.seconds, "seconds between two checkpoints")
+  run_command->add_option("--checkpoint", o.run.checkpoints.seconds, "seconds between two checkpoints of a drape")
       ->check(CLI::Range(0.0, 1e6))->capture_default_str();
-  run_command->add_flag("!--no-checkpoint", o.run.checkpoints.write, "write none");
+  run_command->add_flag("!--no-checkpoint", o.run.checkpoints.write, "write no checkpoints");
   run_command->add_option("--checkpoint-steps", o.run.checkpoints.steps)->check(CLI::Range(1, 1000000))->group("");  // for tests
   run_command->add_option("--max-steps", o.run.max_steps, "give up after so many steps")->check(CLI::Range(1, 1000000));
 

@@ -125,15 +125,16 @@ struct Run {
     if (!a.ok() || !std::holds_alternative<interpreter::DrapeAct>(project.result.acts[at].act)) return a.refuse();
     if (a.reading()) catch_up();
     a.keep(draped);
-    bool failed = code == kExpectFailed;
-    a.keep(failed);
+    auto so_far = static_cast<std::int32_t>(code);  // a `save` or an `expect` that failed does not end a run
+    a.keep(so_far);
+    a.demand(so_far == kOk || so_far == kInputOutput || so_far == kExpectFailed);
     cli::keep(a, begun, model.n_particles());
     keep_answers(a, report);
     recorder.keep(a);
     out.keep(a);
     if (!a.reading() || !a.ok()) return;
     state = begun;
-    code = std::max(code, failed ? kExpectFailed : kOk);
+    code = std::max(code, static_cast<ExitCode>(so_far));
     if (draped && !model.motions.empty()) project.result.bodies = simulator::bodies_at(bodies, model, state.time);
   }
 
@@ -216,7 +217,8 @@ struct Run {
 void perform(Run& run) {
   const std::vector<interpreter::Act>& acts = run.project.result.acts;
   for (; run.at < acts.size(); ++run.at) {
-    if (run.code != kOk && run.code != kExpectFailed) break;
+    if (run.code == kInterrupted || run.code == kSimulationFailed || run.code == kDiagnostics) break;
+    if (run.report.drape.status == simulator::DrapeStatus::not_resumed) break;
     const interpreter::Act& act = acts[run.at];
     if (auto* drape = std::get_if<interpreter::DrapeAct>(&act.act)) run.drape(*drape, act.span);
     if (std::holds_alternative<interpreter::ExpectAct>(act.act)) run.expect(act);
