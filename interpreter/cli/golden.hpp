@@ -1,6 +1,7 @@
 #pragma once
 // `garment test DIR`: scripts that say themselves what is expected of them, or have a sibling .expected file.
 #include <string>
+#include <vector>
 
 #include "interpreter/cli/exit_codes.hpp"
 #include "interpreter/cli/terminal.hpp"
@@ -11,6 +12,7 @@ namespace garment::cli {
 struct GoldenOptions {
   std::string folder;
   std::string stdlib_dir;
+  std::vector<std::string> library_dirs;  ///< where `use NAME` looks first
   bool update = false;   ///< write .expected files anew; the only way they change
   bool drape = true;     ///< else scripts of the stage `run` are only checked
   bool list = false;     ///< only name the scripts and their stages

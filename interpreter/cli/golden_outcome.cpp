@@ -104,9 +104,10 @@ class GoldenRun {
 };
 
 void interpret_golden(GoldenOutcome& o, const std::string& path, grammar::SourceId id, GoldenStage stage,
-                      const std::string& stdlib_dir, Host& host) {
+                      const GoldenLibraries& libraries, Host& host) {
   interpreter::InterpretOptions options;
-  options.stdlib_dir = stdlib_dir;
+  options.stdlib_dir = libraries.stdlib_dir;
+  options.library_dirs = libraries.before;
   options.script_dir = folder_of(path);
   options.warn_unused = true;
   interpreter::Interpretation result = interpreter::interpret(o.sources, id, host, options);
@@ -135,7 +136,7 @@ bool has_drape(const std::string& script) {
 }
 
 GoldenOutcome run_golden(const std::string& path, const std::string& script, GoldenStage stage,
-                         const std::string& stdlib_dir, Host& host) {
+                         const GoldenLibraries& libraries, Host& host) {
   GoldenOutcome o;
   const grammar::SourceId id = o.sources.add(std::filesystem::path(path).filename().string(), script);
   if (stage == GoldenStage::parse) {
@@ -147,7 +148,7 @@ GoldenOutcome run_golden(const std::string& path, const std::string& script, Gol
     o.diagnostics = std::move(formatted.diagnostics);
     if (o.diagnostics.empty()) o.text = std::move(formatted.text);
   } else {
-    interpret_golden(o, path, id, stage, stdlib_dir, host);
+    interpret_golden(o, path, id, stage, libraries, host);
   }
   for (const grammar::Diagnostic& d : o.diagnostics) o.text += grammar::render(d, o.sources, false);
   return o;

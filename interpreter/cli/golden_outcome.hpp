@@ -22,8 +22,14 @@ struct GoldenOutcome {
 /// True where the script has a `drape` at its top level: then its stage is `run` unless it says otherwise.
 bool has_drape(const std::string& script);
 
+/// Where `use NAME` looks.
+struct GoldenLibraries {
+  std::string stdlib_dir;
+  std::vector<std::string> before;  ///< folders that are looked in first
+};
+
 /// `path` names the script in messages and says where its files are.
 GoldenOutcome run_golden(const std::string& path, const std::string& script, GoldenStage stage,
-                         const std::string& stdlib_dir, Host& host);
+                         const GoldenLibraries& libraries, Host& host);
 
 }  // namespace garment::cli

@@ -103,6 +103,11 @@ int main(int argc, char** argv) {
   run_command->add_flag("!--no-self-collision", o.run.self_collision, "cloth passes through cloth: faster, for comparisons");
   run_command->add_flag("--ply", o.run.ply, "also write garment.ply, with strain");
   run_command->add_option("--paper", o.paper, "sheets of a .pdf pattern: " + garment::io::paper_names())->capture_default_str();
+  run_command->add_flag("--resume", o.run.checkpoints.resume, "go on from the last checkpoint in the results folder");
+  run_command->add_option("--checkpoint", o.run.checkpoints.seconds, "seconds between two checkpoints of a drape")
+      ->check(CLI::Range(0.0, 1e6))->capture_default_str();
+  run_command->add_flag("!--no-checkpoint", o.run.checkpoints.write, "write no checkpoints");
+  run_command->add_option("--checkpoint-steps", o.run.checkpoints.steps)->check(CLI::Range(1, 1000000))->group("");  // for tests
   run_command->add_option("--max-steps", o.run.max_steps, "give up after so many steps")->check(CLI::Range(1, 1000000));
 
   auto* check_command = app.add_subcommand("check", "evaluate a script and say what is wrong with it");
@@ -155,6 +160,8 @@ int main(int argc, char** argv) {
   test_command->add_flag("--list", o.golden.list, "only name the scripts and how far each is taken");
   test_command->add_option("--filter", o.golden.filter, "only scripts with this in their path; * stands for anything");
   test_command->add_option("--junit", o.golden.junit, "also write the outcome to this file as JUnit XML");
+  test_command->add_option("--library", o.golden.library_dirs, "folder where `use NAME` looks first; may be given again")
+      ->allow_extra_args(false);
   test_command->add_option("-j,--jobs", o.golden.jobs, "scripts at a time")->check(CLI::Range(1, 64));
   add_common(test_command, o);
   auto* limits_command = app.add_subcommand("limits", "what a script may cost");

@@ -50,6 +50,15 @@ bool OutputFolder::write(const std::string& name, const std::string& bytes) {
   return true;
 }
 
+void OutputFolder::keep(Archive& a) {
+  if (!a.length(files_, 1)) return;
+  for (results::OutputFile& file : files_) {
+    a.keep(file.name);
+    a.keep(file.sha256);
+    a.keep(file.bytes);
+  }
+}
+
 void write_results(const OutputOptions& options, const Project& project, const model::Model& model,
                    const model::State& state, OutputFolder& out) {
   const std::vector<body::Body>& bodies = project.result.bodies;

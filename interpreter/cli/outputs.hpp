@@ -5,6 +5,7 @@
 #include "interpreter/cli/exit_codes.hpp"
 #include "interpreter/cli/project.hpp"
 #include "interpreter/cli/terminal.hpp"
+#include "runtime/base/archive.hpp"
 #include "runtime/io/pdf_writer.hpp"
 #include "runtime/model/model.hpp"
 #include "runtime/results/report.hpp"
@@ -29,6 +30,8 @@ class OutputFolder {
   bool failed() const { return failed_; }
   const std::vector<results::OutputFile>& files() const { return files_; }
   const std::string& folder() const { return folder_; }
+  const std::vector<std::string>& granted() const { return granted_; }
+  void keep(Archive& a);  ///< in a checkpoint: what has been written
 
  private:
   std::string folder_;

@@ -1,11 +1,11 @@
 #include "interpreter/cli/reference_library.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include "grammar/syntax_tree.hpp"
 #include "interpreter/language/construct_table.hpp"
 #include "interpreter/language/interpret.hpp"
+#include "interpreter/language/standard_libraries.hpp"
 
 namespace garment::cli {
 namespace {
@@ -84,14 +84,15 @@ std::string places_of_a_person(const std::string& folder, Host& host) {
 
 std::string library_chapter(const std::string& folder, Host& host) {
   std::string text = "## The standard library\n\nNames of a library are written with it, after `use`: `fabrics.denim`.\n\n";
-  for (const char* library : std::array{"fabrics", "bodies", "blocks", "skirts", "sleeves", "collars", "details", "modifiers"}) {
+  for (const interpreter::StandardLibrary& standard : interpreter::kStandardLibraries) {
+    const std::string library(standard.name);
     const HostResult<std::string> file = host.read_file(folder + '/' + library + ".garment", kMostBytes);
     if (!file) continue;
     grammar::Sources sources;
     const grammar::SourceId source = sources.add(library, *file.value);
     const grammar::Script script = grammar::parse(sources, source, interpreter::vocabulary()).script;
-    text += "### " + std::string(library) + "\n\n" + fabric_rows(script, sources) + callables(script, library, sources);
-    if (std::string_view(library) == "bodies") text += places_of_a_person(folder, host);
+    text += "### " + library + "\n\n" + fabric_rows(script, sources) + callables(script, library, sources);
+    if (library == "bodies") text += places_of_a_person(folder, host);
   }
   return text;
 }

@@ -23,7 +23,7 @@ std::string command_text(const CLI::App& command) {
       for (char& c : name) c = static_cast<char>(c >= 'a' && c <= 'z' ? c - 32 : c);
       call += ' ' + name + (option->get_expected_max() > 1 ? " ..." : "");
     }
-    if (option->get_name(false, true) == "-h,--help") continue;
+    if (option->get_name(false, true) == "-h,--help" || option->get_group().empty()) continue;  // hidden ones have no group
     const std::string name =
         option->get_positional() ? option->get_single_name() : option->get_name(false, true);
     rows += "| `" + cell(name) + "` | " + cell(option->get_description()) + " |\n";

@@ -6,6 +6,8 @@
 
 #include "interpreter/cli/modelling.hpp"
 #include "interpreter/cli/outputs.hpp"
+#include "interpreter/cli/run_state.hpp"
+#include "interpreter/cli/run_summary.hpp"
 #include "interpreter/cli/study.hpp"
 #include "interpreter/session/drape_act.hpp"
 #include "interpreter/session/drape_answers.hpp"
@@ -55,8 +57,17 @@ ExitCode exit_code_of(simulator::DrapeStatus status) {
     case simulator::DrapeStatus::not_settled:
     case simulator::DrapeStatus::tangled:
     case simulator::DrapeStatus::diverged: return kSimulationFailed;
+    case simulator::DrapeStatus::not_resumed: return kInputOutput;
   }
   return kSimulationFailed;
+}
+
+/// A drape that failed leaves the state that it came to.
+void name_last_state(grammar::Diagnostics& told, const RunOptions& options, const std::string& folder) {
+  for (grammar::Diagnostic& d : told)
+    if (d.severity == Severity::error)
+      d.message += fmt::format("; how the garment lies then is written to `{}/garment.obj`{}", folder,
+                               options.pictures ? fmt::format(" and `{}/drape.png`", folder) : "");
 }
 
 /// One run under way; each act of the script is one call.
@@ -71,6 +82,10 @@ struct Run {
   design::Garment holding;  ///< less what was released
   std::vector<body::Body> bodies;  ///< at time 0; the project's are where they are now
   session::Recorder recorder;
+  RunCheckpoints& checkpoints;
+  std::size_t at = 0;       ///< act at hand
+  std::string resume{};     ///< of the first drape: what its simulator goes on from
+  model::State begun{};     ///< where the drape at hand began
   model::State state{};
   bool draped = false;
   ExitCode code = kOk;
@@ -81,17 +96,82 @@ struct Run {
     scene.settings.self_collision = options.self_collision;
     scene.settings.progress = [this](const simulator::DrapeProgress& p) { terminal.progress(p, host); };
     scene.settings.interrupted = [this] { return host.interrupted(); };
+    scene.settings.checkpoints.resume = resume;
+    begun = state;
+    if (checkpoints.writes()) {
+      scene.settings.checkpoints.due = [this] { return checkpoints.due(); };
+      scene.settings.checkpoints.keep = [this](const std::string& drape_state) { keep_drape(drape_state); };
+    }
     report.settle = act.settle;
     report.drape = session::perform_drape(act, scene, state);
+    resume.clear();
     terminal.end_progress();
     draped = true;
     if (!model.motions.empty()) project.result.bodies = simulator::bodies_at(bodies, model, state.time);
-    if (grammar::Diagnostics told = recorder.take_diagnostics(); !told.empty()) {
-      show(told, project.sources, terminal);
+    if (grammar::Diagnostics troubles = recorder.take_diagnostics(); !troubles.empty()) {
+      show(troubles, project.sources, terminal);
       code = kDiagnostics;
     }
-    show(session::told_by(report.drape, project.result, span), project.sources, terminal);
-    code = std::max(code, exit_code_of(report.drape.status));
+    grammar::Diagnostics told = session::told_by(report.drape, project.result, span);
+    const ExitCode came_to = exit_code_of(report.drape.status);
+    if (came_to == kSimulationFailed) name_last_state(told, options, out.folder());
+    show(told, project.sources, terminal);
+    code = std::max(code, came_to);
+  }
+
+  /// What the acts before the drape at hand have left, in a checkpoint. A release is made again.
+  void keep(Archive& a) {
+    a.keep(at);
+    a.demand(at < project.result.acts.size());
+    if (!a.ok() || !std::holds_alternative<interpreter::DrapeAct>(project.result.acts[at].act)) return a.refuse();
+    if (a.reading()) catch_up();
+    a.keep(draped);
+    auto so_far = static_cast<std::int32_t>(code);  // a `save` or an `expect` that failed does not end a run
+    a.keep(so_far);
+    a.demand(so_far == kOk || so_far == kInputOutput || so_far == kExpectFailed);
+    cli::keep(a, begun, model.n_particles());
+    keep_answers(a, report);
+    recorder.keep(a);
+    out.keep(a);
+    if (!a.reading() || !a.ok()) return;
+    state = begun;
+    code = std::max(code, static_cast<ExitCode>(so_far));
+    if (draped && !model.motions.empty()) project.result.bodies = simulator::bodies_at(bodies, model, state.time);
+  }
+
+  /// What the acts before mean for those that come: what is released, recorded, and the rounds of studies.
+  void catch_up() {
+    for (std::size_t k = 0; k < at; ++k) {
+      const interpreter::Act& before = project.result.acts[k];
+      if (auto* release_act = std::get_if<interpreter::ReleaseAct>(&before.act)) release(*release_act);
+      if (auto* record = std::get_if<interpreter::RecordAct>(&before.act)) recorder.add(*record);
+      if (auto* vary = std::get_if<interpreter::VaryAct>(&before.act)) add_rounds(*vary);
+    }
+  }
+  void add_rounds(const interpreter::VaryAct& vary) {
+    for (const std::string& folder : round_folders(vary, out.folder())) checkpoints.add_round(folder);
+  }
+
+  /// A record that went wrong is told after the drape: from then on nothing is kept.
+  void keep_drape(const std::string& drape_state) {
+    if (recorder.troubled()) return;
+    Archive a;
+    keep(a);
+    checkpoints.write(a.take() + drape_state);
+  }
+
+  /// Goes to where the checkpoint was written; false where it is none of this run (told).
+  bool go_to(const std::string& kept) {
+    Archive a(kept);
+    keep(a);
+    resume = std::string(a.rest());
+    if (a.ok() && !resume.empty()) {
+      terminal.note(fmt::format("going on from a checkpoint, in act {} of {}", at + 1, project.result.acts.size()));
+      return true;
+    }
+    show({plain_error("G0810", "the checkpoint holds no state that this run could have been in", "run it from the start, without `--resume`")},
+         project.sources, terminal);
+    return false;
   }
 
   /// The holds of the garment without what was released; all else of the model stays.
@@ -136,58 +216,24 @@ struct Run {
 };
 
 void perform(Run& run) {
-  for (const interpreter::Act& act : run.project.result.acts) {
+  const std::vector<interpreter::Act>& acts = run.project.result.acts;
+  for (; run.at < acts.size(); ++run.at) {
     if (run.code == kInterrupted || run.code == kSimulationFailed || run.code == kDiagnostics) break;
+    if (run.report.drape.status == simulator::DrapeStatus::not_resumed) break;
+    const interpreter::Act& act = acts[run.at];
     if (auto* drape = std::get_if<interpreter::DrapeAct>(&act.act)) run.drape(*drape, act.span);
     if (std::holds_alternative<interpreter::ExpectAct>(act.act)) run.expect(act);
     if (std::holds_alternative<interpreter::MeasureAct>(act.act)) run.measure(act);
     if (auto* release = std::get_if<interpreter::ReleaseAct>(&act.act)) run.release(*release);
     if (auto* record = std::get_if<interpreter::RecordAct>(&act.act)) run.recorder.add(*record);
-    if (auto* vary = std::get_if<interpreter::VaryAct>(&act.act))
+    if (auto* vary = std::get_if<interpreter::VaryAct>(&act.act)) {
+      run.add_rounds(*vary);
       run.code = std::max(run.code, run_study(run.options, *vary, run.out.folder(), run.host, run.terminal));
+    }
     if (auto* save = std::get_if<interpreter::SaveAct>(&act.act))
       for (const std::string& name : save->paths)
         if (!save_file(name, run.project, run.model, run.state, run.out, run.options.paper, run.terminal)) run.code = kInputOutput;
   }
-}
-
-void summarise_motion(const simulator::DrapeReport& drape, double taken, Terminal& terminal) {
-  const simulator::MotionReport& m = drape.motion;
-  auto joule = [](double x) { return format_number(x, 3) + " J"; };
-  const std::string steps = m.steps == 0 ? fmt::format("{} steps, at rest at every moment", drape.steps)
-                                         : fmt::format("{} steps of {} to {} ms", m.steps, format_number(1000 * m.least_step, 3),
-                                                       format_number(1000 * m.largest_step, 3));
-  terminal.note(fmt::format("{}: {} s in {}, {}, {} intersections", results::status_name(drape.status), format_number(m.seconds, 4),
-                            steps, say_seconds(taken), drape.self_intersections + drape.body_intersections + drape.inside_body));
-  if (m.stable_step > 0) terminal.note(fmt::format("       explicit steps are stable up to {} ms", format_number(1000 * m.stable_step, 3)));
-  if (m.steps > 0)
-    terminal.note(fmt::format("       energy: kinetic {}, stored {}; work {}, damping {}, friction {}, lost to the steps {}",
-                              joule(m.balance.kinetic), joule(m.balance.stored), joule(m.balance.work), joule(m.balance.damping),
-                              joule(m.balance.friction), joule(m.balance.numerical)));
-}
-
-void summarise(const results::Report& report, const OutputFolder& out, bool draped, Terminal& terminal) {
-  double drape_seconds = 0;
-  for (const results::PhaseTime& p : report.phases)
-    if (p.phase == "drape") drape_seconds = p.seconds;
-  if (draped && report.drape.motion.seconds > 0) summarise_motion(report.drape, drape_seconds, terminal);
-  else if (draped)
-    terminal.note(fmt::format("{}: {} particles, {} steps in {}, residual {} of the weight, largest strain {}%, {}",
-                              results::status_name(report.drape.status), say_count(report.particles), report.drape.steps,
-                              say_seconds(drape_seconds), format_number(report.drape.residual, 2),
-                              format_number(100 * report.strain.all.any.largest, 2),
-                              report.drape.self_intersections + report.drape.body_intersections + report.drape.inside_body == 0
-                                  ? "nothing intersects"
-                                  : fmt::format("{} intersections", report.drape.self_intersections +
-                                                                        report.drape.body_intersections +
-                                                                        report.drape.inside_body)));
-  for (const results::TieMeasure& t : report.measures.ties)
-    if (draped && t.gap > results::kOpenTie)
-      terminal.note(fmt::format("`{}` does not close: {} mm are missing", t.closure, format_number(1000 * t.gap, 2)));
-  for (const results::MeasureOutcome& m : report.stated_measures) terminal.note(fmt::format("       {} = {}", m.name, m.shown));
-  for (const results::ExpectOutcome& e : report.expects)
-    terminal.note(fmt::format("{} {}: found {}", e.passed ? "ok    " : "FAILED", e.text, e.shown));
-  terminal.note(fmt::format("results in {}/", out.folder()));
 }
 
 }  // namespace
@@ -207,11 +253,21 @@ ExitCode run_script(const RunOptions& options, results::Report& report, bool& re
 
   OutputFolder out(options.out.empty() ? project.name : options.out, host, terminal, options.project.allow_write);
   session::Recorder recorder(project.result, *model, [&out](const std::string& name, const std::string& bytes) { out.write(name, bytes); });
-  Run under_way{options, host, terminal, project, *model, out, report, project.result.garment, project.result.bodies, std::move(recorder)};
+  RunCheckpoints checkpoints(options.checkpoints, out.folder(), out.granted(), host, terminal);
+  Run under_way{options, host, terminal, project, *model, out, report, project.result.garment, project.result.bodies, std::move(recorder), checkpoints};
   under_way.state.position = model->start;
   under_way.state.velocity.assign(model->n_particles(), Eigen::Vector3d::Zero());
   for (const interpreter::MeasureValue& m : project.result.measures) under_way.keep_measure(m);
+  std::string kept;
+  if (!checkpoints.begin(identity_of(project, options.project, *model, options.max_steps), kept)) return kInputOutput;
+  if (is_ended_round(kept)) {
+    ExitCode code = kOk;
+    reported = read_ended_round(kept, code, report);
+    return reported ? code : kInputOutput;
+  }
+  if (!kept.empty() && !under_way.go_to(kept)) return kInputOutput;
   perform(under_way);
+  if (report.drape.status == simulator::DrapeStatus::not_resumed) return kInputOutput;
   watch.lap("drape");
 
   write_results({out.folder(), options.pictures, options.ply}, project, *model, under_way.state, out);
@@ -224,9 +280,12 @@ ExitCode run_script(const RunOptions& options, results::Report& report, bool& re
   report.peak_memory = host.peak_memory();
   out.write("report.json", results::report_json(report));
   reported = true;
-  summarise(report, out, under_way.draped, terminal);
-  if (out.failed()) return kInputOutput;
-  return under_way.code;
+  summarise(report, out.folder(), under_way.draped, terminal);
+  const ExitCode code = out.failed() ? kInputOutput : under_way.code;
+  if (code == kInterrupted && checkpoints.any()) terminal.note("interrupted: --resume goes on from here");
+  if (code != kInterrupted && options.project.study) checkpoints.write(ended_round(code, report));
+  if (code != kInterrupted && !options.project.study) checkpoints.finish();
+  return code;
 }
 
 ExitCode run(const RunOptions& options, Host& host, Terminal& terminal) {

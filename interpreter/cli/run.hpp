@@ -3,6 +3,7 @@
 #include <string>
 
 #include "interpreter/cli/project.hpp"
+#include "interpreter/cli/run_checkpoints.hpp"
 #include "runtime/io/pdf_writer.hpp"
 #include "runtime/results/report.hpp"
 
@@ -16,6 +17,7 @@ struct RunOptions {
   bool ply = false;
   io::PaperSize paper;     ///< of a .pdf
   int max_steps = 0;       ///< 0: the simulator's own limit
+  CheckpointOptions checkpoints;
 };
 
 ExitCode run(const RunOptions& options, Host& host, Terminal& terminal);

@@ -82,17 +82,28 @@ std::string table_of(const std::string& target, const std::vector<Round>& rounds
 
 }  // namespace
 
+std::vector<std::string> round_folders(const interpreter::VaryAct& act, const std::string& folder) {
+  std::vector<std::string> out;
+  for (const std::string& value : act.values) out.push_back(folder + '/' + file_word(act.target) + '=' + file_word(value));
+  return out;
+}
+
 ExitCode run_study(const RunOptions& options, const interpreter::VaryAct& act, const std::string& folder, Host& host,
                    Terminal& terminal) {
   ExitCode worst = kOk;
   std::vector<Round> rounds;
-  for (const std::string& value : act.values) {
+  const std::vector<std::string> folders = round_folders(act, folder);
+  if (!options.checkpoints.resume)  // those of a study that was broken off before
+    for (const std::string& of_round : folders) remove_checkpoints(of_round, {of_round}, host);
+  for (std::size_t k = 0; k < act.values.size(); ++k) {
+    const std::string& value = act.values[k];
     Round& round = rounds.emplace_back();
     round.value = value;
     RunOptions own = options;
     own.project.study = interpreter::Study{act.ordinal, act.target, value};
     own.project.only_errors = true;
-    own.out = folder + '/' + file_word(act.target) + '=' + file_word(value);
+    own.checkpoints.of_round = true;
+    own.out = folders[k];
     terminal.note(fmt::format("{} = {}", act.target, value));
     bool reported = false;
     round.code = run_script(own, round.report, reported, host, terminal);

@@ -11,6 +11,9 @@ namespace garment::cli {
 ExitCode run_study(const RunOptions& options, const interpreter::VaryAct& act, const std::string& folder, Host& host,
                    Terminal& terminal);
 
+/// The folders of its rounds.
+std::vector<std::string> round_folders(const interpreter::VaryAct& act, const std::string& folder);
+
 /// Evaluates the script with each value of each of its studies; prints what is wrong with one, the first that is.
 ExitCode check_studies(const ProjectOptions& options, const std::vector<interpreter::Act>& acts, Host& host,
                        Terminal& terminal);

@@ -20,7 +20,7 @@ std::vector<ConstructRecord> scene_constructs() {
        .forget = forget_body},
       {.keyword = "place",
        .form = "place PANEL on BODY.PART [with EDGE at LEVEL] | around BODY.PART | around SHAPE | at (X, Y, Z) turn (RX, "
-               "RY, RZ) | flat at (X, Y, Z)",
+               "RY, RZ) | flat at (X, Y, Z) | start folded",
        .doc = "where a panel starts in space",
        .example = "place front on form.front with waist at form.waist offset 1 cm",
        .clauses = {{"on", "BODY.front | BODY.back | ...", "wrapped onto a side of the body"},
@@ -30,7 +30,7 @@ std::vector<ConstructRecord> scene_constructs() {
                    {"turn", "(RX, RY, RZ)", "turned by Rz Ry Rx"},
                    {"flat", "", "lies flat, face up, the panel's y away from the viewer"},
                    {"offset", "LENGTH", "distance from the body", kLength, 0, 0.5, "1 cm"},
-                   {"start", "folded", "begins folded in half"}},
+                   {"start", "folded", "begins folded in half; alone: where it lies comes from its seams"}},
        .run = run_place},
       {.keyword = "attach",
        .form = "attach EDGES [, EDGES ...] to LEVEL [slide | hold]",

@@ -72,8 +72,12 @@ struct DepthGuard {
 [[gnu::noinline]] Value eval_name(Program& program, const Expr& expr, Scope& scope) {
   const std::string name = name_of(program, expr, scope);
   if (const Value* local = find_local(scope, name)) return *local;
-  if (Declaration* declaration = find_declaration(scope, name))
+  if (Declaration* declaration = find_declaration(scope, name)) {
+    // A port is called as what it shows to the outside; to the panel that is being drawn its own edge is nearer.
+    if (declaration->statement->keyword.text == "port")
+      if (const auto drawn = drawn_member(program, scope, name)) return *drawn;
     return force(program, *declaration, expr.span);
+  }
   // `both` puts its half into every operand that is declared in halves.
   if (!scope.half.empty())
     if (Declaration* declaration = find_declaration(scope, name + '.' + scope.half)) {

@@ -3,6 +3,7 @@
 #include "interpreter/language/clauses.hpp"
 #include "interpreter/language/declarations.hpp"
 #include "interpreter/language/files.hpp"
+#include "interpreter/language/standard_libraries.hpp"
 
 namespace garment::interpreter {
 namespace {
@@ -39,7 +40,7 @@ Found read_first(Program& program, const std::vector<std::string>& paths, const 
       fail(program, Message("G0328", name + " lies outside the script's folder: a link leads out of it", span)
                         .help("put the file itself beside the script, or grant its folder with `--allow-read`"));
   }
-  std::string hint = "libraries are fabrics, bodies, blocks, skirts, sleeves, collars, details and modifiers; other files are named in quotes";
+  std::string hint = "libraries are " + standard_library_names() + "; other files are named in quotes";
   if (paths.size() > 1) hint += "; looked in `--library` folders and the standard library";
   fail(program, Message("G0318", "`" + name + "` cannot be used: " + why, span).help(hint));
 }

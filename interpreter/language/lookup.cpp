@@ -5,6 +5,7 @@
 #include "interpreter/language/edges.hpp"
 #include "interpreter/language/evaluate.hpp"
 #include "interpreter/language/function_table.hpp"
+#include "interpreter/language/standard_libraries.hpp"
 #include "runtime/base/portable_math.hpp"
 
 namespace garment::interpreter {
@@ -110,8 +111,8 @@ std::string place_of_a_body(const Program& program, const std::string& name) {
 
 /// What an unknown name is elsewhere, or a unit it was meant for.
 std::string known_elsewhere(const Program& program, const std::string& name) {
-  for (const char* library : {"fabrics", "bodies", "blocks", "skirts", "sleeves", "collars", "details", "modifiers"})
-    if (name == library) return "write `use " + name + "` at the top";
+  for (const StandardLibrary& library : kStandardLibraries)
+    if (name == library.name) return "write `use " + name + "` at the top";
   for (const std::string& found : {place_of_a_body(program, name), thing_of_a_panel(program, name)})
     if (!found.empty()) return "did you mean `" + found + "`?";
   if (name.size() > 1 && (name.back() == '2' || name.back() == '3') && find_unit(name.substr(0, name.size() - 1)))

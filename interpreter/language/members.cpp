@@ -95,6 +95,17 @@ Value panel_member(Program& program, const Expr& expr, int index, std::string ha
   fail_member(program, expr, what, name, names);
 }
 
+/// Several edges in a chain have no points of their own: whose is meant?
+[[noreturn]] void fail_chain_member(Program& program, const Expr& expr, const EdgeValue& edge, const std::string& name) {
+  constexpr std::size_t kNamed = 3;
+  std::string ways;
+  for (std::size_t k = 0; k < std::min(kNamed, edge.spans.size()); ++k)
+    ways += (k == 0 ? "`" : " or `") + show(Value{EdgeValue{{edge.spans[k]}}}) + ".middle`";
+  fail(program, Message("G0311", "`" + show(Value{edge}) + "` is a chain of " + std::to_string(edge.spans.size()) + " edges, which has no `" + name + "`",
+                        expr.name_span)
+                    .help("take a point of one of them, as in " + ways));
+}
+
 Value edge_member(Program& program, const Expr& expr, const EdgeValue& edge, const std::string& name) {
   const EdgeSpan& first = edge.spans.front();
   const EdgeSpan& last = edge.spans.back();
@@ -108,6 +119,7 @@ Value edge_member(Program& program, const Expr& expr, const EdgeValue& edge, con
     if (name == "middle") return point(first, cut_length(first) / 2);
     if (const auto at = notch_position(program, first, name)) return point(first, *at);
   }
+  if (edge.spans.size() > 1) fail_chain_member(program, expr, edge, name);
   fail_member(program, expr, "edge `" + show(Value{edge}) + "`", name, {"start", "end", "middle", "at"});
 }
 
@@ -182,6 +194,36 @@ Value thing_member(Program& program, const Expr& expr, const ThingValue& thing, 
   fail_member(program, expr, std::string(thing.keyword) + " `" + thing.declaration->name + "`", name, names);
 }
 
+/// The part that `expr` names, itself or inside of other parts; null where it names none. Nothing else is evaluated for it.
+const Part* named_part(Program& program, const Expr& expr, Scope& scope) {
+  Declaration* declaration = nullptr;
+  if (expr.kind == ExprKind::name) {
+    declaration = find_declaration(scope, name_of(program, expr, scope));
+  } else if (expr.kind == ExprKind::member) {
+    const Part* outer = named_part(program, expr.children[0], scope);
+    if (outer == nullptr) return nullptr;
+    const auto found = outer->scope->declared.find(name_of(program, expr, scope));
+    if (found != outer->scope->declared.end()) declaration = found->second;
+  }
+  if (declaration == nullptr || declaration->statement->keyword.text != "part") return nullptr;
+  const Value value = force(program, *declaration, expr.span);
+  const auto* thing = value.as<ThingValue>();
+  return thing == nullptr ? nullptr : &program.parts[static_cast<std::size_t>(thing->index)];
+}
+
+/// `sleeves.upper.left` of a part whose component has a `pair panel upper`: a declared name of the part with a dot in it.
+Declaration* dotted_declaration_of_part(Program& program, const Expr& expr, const std::string& name, Scope& scope) {
+  const Expr& base = expr.children[0];
+  if (base.kind != ExprKind::member || (name != "left" && name != "right")) return nullptr;
+  const Part* part = named_part(program, base.children[0], scope);
+  if (part == nullptr) return nullptr;
+  const std::string member = name_of(program, base, scope);
+  const auto& declared = part->scope->declared;
+  if (declared.find(member) != declared.end()) return nullptr;
+  const auto found = declared.find(member + '.' + name);
+  return found == declared.end() ? nullptr : found->second;
+}
+
 /// `side.left`, the name that `both seam side` gives: one declared name with a dot in it.
 Declaration* dotted_declaration(const Expr& expr, const std::string& name, Scope& scope) {
   const Expr& base = expr.children[0];
@@ -196,6 +238,7 @@ Declaration* dotted_declaration(const Expr& expr, const std::string& name, Scope
 Value eval_member(Program& program, const Expr& expr, Scope& scope) {
   const std::string name = name_of(program, expr, scope);
   if (Declaration* dotted = dotted_declaration(expr, name, scope)) return force(program, *dotted, expr.span);
+  if (Declaration* dotted = dotted_declaration_of_part(program, expr, name, scope)) return force(program, *dotted, expr.span);
   const Value base = eval(program, expr.children[0], scope);
   if (const auto* v = base.as<ModuleValue>()) return module_member(program, expr, *v->module, name);
   if (const auto* v = base.as<PanelValue>()) return panel_member(program, expr, v->panel, "", name, scope);

@@ -79,7 +79,7 @@ class Placer {
                              around->clause->span));
     if (on != nullptr) wrap(*on, design::Placement::Kind::on_part);
     if (around != nullptr) wrap(*around, design::Placement::Kind::around);
-    if (on == nullptr && around == nullptr) rigid();
+    if (on == nullptr && around == nullptr && !only_how_it_begins()) rigid();
     if (const BoundClause* start = clauses_.find("start")) {
       const Expr& word = clauses_.value(*start);
       if (word.kind != ExprKind::name || word.text != "folded")
@@ -98,6 +98,13 @@ class Placer {
     const Value value = eval(program_, expr, scope);
     if (const auto* body = value.as<BodyValue>(); body != nullptr && is_plain(program_, body->body, expr.span)) return {body->body, kWhole};
     return eval_body_place(program_, expr, scope, "`around` takes a part of a body, or a plain shape");
+  }
+
+  /// `place front start folded`: where it lies comes from its seams.
+  bool only_how_it_begins() {
+    for (const char* word : {"at", "flat", "turn", "with", "offset"})
+      if (clauses_.find(word) != nullptr) return false;
+    return clauses_.find("start") != nullptr;
   }
 
   void wrap(const BoundClause& clause, design::Placement::Kind kind) {

@@ -228,6 +228,7 @@ class Unparser {
     const std::string part = body_called(place.body) + (place.part.empty() ? "" : "." + place.part);
     switch (place.kind) {
       case Placement::Kind::none:
+        if (place.folded) line(statement + " start folded");
         return;
       case Placement::Kind::rigid: {
         statement += " at " + text::point(place.translation);

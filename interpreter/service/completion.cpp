@@ -7,6 +7,7 @@
 #include "interpreter/language/evaluate.hpp"
 #include "interpreter/language/fabrics.hpp"
 #include "interpreter/language/function_table.hpp"
+#include "interpreter/language/standard_libraries.hpp"
 #include "interpreter/service/context.hpp"
 #include "interpreter/service/documentation.hpp"
 #include "interpreter/service/members.hpp"
@@ -287,7 +288,8 @@ class Proposer {
   }
 
   void propose_libraries() {
-    for (const LibraryName& library : library_names()) add(library.name, "module", "library", library.doc);
+    for (const StandardLibrary& library : kStandardLibraries)
+      add(std::string(library.name), "module", "library", std::string(library.offers));
   }
 
   // ---- in brackets and after a dot

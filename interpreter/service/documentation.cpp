@@ -31,20 +31,6 @@ const std::vector<ParserWord>& parser_words() {
   return words;
 }
 
-const std::vector<LibraryName>& library_names() {
-  static const std::vector<LibraryName> names = {
-      {"fabrics", "measured cloth: `fabrics.denim`"},
-      {"bodies", "persons by size: `bodies.woman(size: 40)`"},
-      {"blocks", "skirt, tee and other blocks as components: `part front = blocks.skirt(...)`"},
-      {"skirts", "flared and gathered skirts: `part lower = skirts.flared(...)`"},
-      {"sleeves", "sleeves of one and two pieces, cuffs: `part arms = sleeves.one_piece(...)`"},
-      {"collars", "collars and hoods: `part collar = collars.shirt_collar(...)`"},
-      {"details", "bands, pockets, rows of buttons: `part waistband = details.band(...)`"},
-      {"modifiers", "changes of a part: `part longer = modifiers.lengthen_body(top, by: 5 cm)`"},
-  };
-  return names;
-}
-
 std::string construct_doc(const ConstructRecord& record) { return with_example(record.doc, record.example); }
 
 std::string function_doc(const FunctionRecord& function) {

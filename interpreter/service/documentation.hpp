@@ -17,12 +17,6 @@ struct ParserWord {
 };
 const std::vector<ParserWord>& parser_words();
 
-/// The libraries that `use` takes in by name.
-struct LibraryName {
-  std::string name, doc;
-};
-const std::vector<LibraryName>& library_names();
-
 std::string construct_doc(const interpreter::ConstructRecord& record);  ///< doc and example, Markdown
 std::string function_doc(const interpreter::FunctionRecord& function);  ///< doc and example, Markdown
 std::string clause_detail(

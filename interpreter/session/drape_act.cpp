@@ -38,6 +38,7 @@ simulator::DrapeReport for_a_time(double duration, const DrapeScene& scene, mode
   settings.self_collision = scene.settings.self_collision;
   settings.progress = scene.settings.progress;
   settings.interrupted = scene.settings.interrupted;
+  settings.checkpoints = scene.settings.checkpoints;
   Recorder* recorder = scene.recorder;
   if (recorder != nullptr && !recorder->idle()) {
     settings.next_frame = [recorder](double after) { return recorder->next(after); };
@@ -46,7 +47,7 @@ simulator::DrapeReport for_a_time(double duration, const DrapeScene& scene, mode
     };
   }
   simulator::DrapeReport report = simulator::move_on(scene.model, scene.bodies, state, settings);
-  if (recorder != nullptr) recorder->write_tables();
+  if (recorder != nullptr && report.status != simulator::DrapeStatus::not_resumed) recorder->write_tables();
   return report;
 }
 

@@ -96,6 +96,20 @@ bool Recorder::too_many(Track& track) {
   return true;
 }
 
+void Recorder::keep(Archive& a) {
+  std::uint64_t n = tracks_.size();
+  a.keep(n);
+  a.demand(n == tracks_.size());
+  for (Track& t : tracks_) {
+    a.keep(t.rows);
+    a.keep(t.frames);
+    a.keep(t.begun);
+    a.keep(t.start);
+    a.keep(t.broken);
+    a.demand(t.frames >= 0 && t.frames <= kMostRows);
+  }
+}
+
 void Recorder::write_tables() {
   for (const Track& t : tracks_)
     if (!t.act.frames && !t.rows.empty()) write_(t.act.path, t.rows);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "interpreter/language/interpret.hpp"
+#include "runtime/base/archive.hpp"
 #include "runtime/model/model.hpp"
 
 namespace garment::session {
@@ -26,6 +27,10 @@ class Recorder {
   void sample(const model::State& state, const simulator::DrapeReport& report, const std::vector<body::Body>& bodies);
   /// Writes the tables so far: after each motion, so that a run that fails later keeps them.
   void write_tables();
+  /// In a checkpoint, between two samples: what the same records have taken so far. What could not be evaluated is not kept:
+  /// see `troubled`.
+  void keep(Archive& a);
+  bool troubled() const { return !diagnostics_.empty(); }
   /// What could not be evaluated, once for each record.
   grammar::Diagnostics take_diagnostics();
 

@@ -162,4 +162,15 @@ HostResult<bool> write_below_folders(const std::vector<std::string>& folders, co
   return {true, {}};
 }
 
+void remove_below_folders(const std::vector<std::string>& folders, const std::string& path) {
+  std::error_code code;
+  const fs::path target(path);
+  const fs::path parent = fs::canonical(target.has_parent_path() ? target.parent_path() : fs::path("."), code);
+  if (code || target.filename().empty()) return;
+  const HostResult<Way> way = find_way(folders, parent / target.filename());
+  if (!way) return;
+  const HostResult<Descriptor> folder = walk(*way.value, false);
+  if (folder) ::unlinkat(folder.value->get(), way.value->names.back().c_str(), 0);
+}
+
 }  // namespace garment

@@ -16,4 +16,7 @@ HostResult<int> open_below(const std::vector<std::string>& folders, const std::s
 HostResult<bool> write_below_folders(const std::vector<std::string>& folders, const std::string& path,
                                      std::string_view bytes);
 
+/// Removes a file below one of `folders`; nothing happens where there is none.
+void remove_below_folders(const std::vector<std::string>& folders, const std::string& path);
+
 }  // namespace garment

@@ -79,6 +79,8 @@ class SystemHost final : public Host {
     return write_below_folders(folders, path, bytes);
   }
 
+  void remove_below(const std::vector<std::string>& folders, const std::string& path) override { remove_below_folders(folders, path); }
+
   static HostResult<std::string> read_all(const Descriptor& fd, std::uint64_t max_bytes) {
     if (fd.get() < 0) return {std::nullopt, last_error()};
     struct stat info {};

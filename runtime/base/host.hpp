@@ -45,6 +45,13 @@ class Host {
     return write_file(path, bytes);
   }
 
+  /// Removes the file at `path`, which must really lie below one of `folders`; one that is not there is no matter. Links are
+  /// removed themselves.
+  virtual void remove_below(const std::vector<std::string>& folders, const std::string& path) {
+    static_cast<void>(folders);
+    static_cast<void>(path);
+  }
+
   /// Writes to a temporary file beside `path` and renames it, so that a reader never sees half a file. Makes missing
   /// folders. `value` is true on success.
   virtual HostResult<bool> write_file(const std::string& path, std::string_view bytes) = 0;

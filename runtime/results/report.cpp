@@ -177,6 +177,8 @@ const char* status_name(simulator::DrapeStatus status) {
       return "diverged";
     case simulator::DrapeStatus::ran:
       return "ran for its time";
+    case simulator::DrapeStatus::not_resumed:
+      return "not resumed";
   }
   return "";
 }

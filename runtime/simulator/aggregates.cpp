@@ -131,6 +131,8 @@ void fill_island(const BlockPattern& pattern, const Holds& holds, Index seed, in
     }
 }
 
+}  // namespace
+
 Aggregates listed(std::vector<Index> of, int n_groups) {
   Aggregates result;
   result.begin.assign(static_cast<std::size_t>(n_groups) + 1, 0);
@@ -144,8 +146,6 @@ Aggregates listed(std::vector<Index> of, int n_groups) {
   result.of = std::move(of);
   return result;
 }
-
-}  // namespace
 
 Aggregates group_particles(const BlockPattern& pattern, const Holds& holds,
                            const std::vector<Eigen::Vector3d>* positions, int size) {

@@ -25,4 +25,7 @@ struct Aggregates {
 Aggregates group_particles(const BlockPattern& pattern, const Holds& holds,
                            const std::vector<Eigen::Vector3d>* positions, int size);
 
+/// Lists the members of groups that are known by the group of each particle, `of` [n].
+Aggregates listed(std::vector<model::Index> of, int n_groups);
+
 }  // namespace garment::simulator

@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "runtime/base/archive.hpp"
 #include "runtime/body/body.hpp"
 #include "runtime/model/model.hpp"
 #include "runtime/model/motion.hpp"
@@ -80,6 +81,8 @@ class BodyContact {
   void pressed(const std::vector<Eigen::Vector3d>& x, std::vector<char>& out) const;
   /// Lower bound of the distance (m) from particle i at x to the surface of every body, as far as the last `find` knows.
   double room(std::size_t i, const Eigen::Vector3d& x) const;
+  /// In a checkpoint: all but where the bodies are.
+  void keep(Archive& a);
 
  private:
   struct Pushes {  // of one particle by one body

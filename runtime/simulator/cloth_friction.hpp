@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "runtime/base/archive.hpp"
 #include "runtime/model/model.hpp"
 #include "runtime/simulator/block_matrix.hpp"
 #include "runtime/simulator/contact.hpp"
@@ -36,6 +37,7 @@ class ClothFriction {
   /// Springs that slipped let go (after an accepted step to x). Returns the heat, J.
   double follow(const std::vector<Vector3d>& x);
   std::size_t size() const { return touches_.size(); }
+  void keep(Archive& a);  ///< in a checkpoint
 
  private:
   struct Touch {

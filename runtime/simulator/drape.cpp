@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "runtime/base/number.hpp"
 #include "runtime/simulator/certificate.hpp"
+#include "runtime/simulator/culprit.hpp"
 #include "runtime/simulator/relaxation.hpp"
+#include "runtime/simulator/solver_state.hpp"
 
 namespace garment::simulator {
 namespace {
@@ -45,6 +48,7 @@ struct Drape {
   const DrapeSettings& settings;
   DrapeReport& report;
   Vectors x;
+  Vectors infinite{};  // where positions became no numbers
 
   bool stop_asked() const { return settings.interrupted && settings.interrupted(); }
   void tell(const StepReport& step, const char* phase) const {
@@ -118,12 +122,15 @@ class Way {
   DrapeStatus go() {
     double target = target_residual(d_.settings.settle);
     while (d_.report.steps < d_.settings.max_steps) {
-      if (d_.stop_asked()) return DrapeStatus::interrupted;
+      const bool stop = d_.stop_asked();
+      d_.settings.checkpoints.look(*this, stop);
+      if (stop) return DrapeStatus::interrupted;
       before_ = d_.x;
       StepReport step = relaxation_.step(d_.x);
       ++d_.report.steps;
       ++steps_in_stage_;
       if (!all_finite(d_.x)) {
+        d_.infinite.swap(d_.x);
         d_.x = before_;
         return DrapeStatus::diverged;
       }
@@ -154,6 +161,19 @@ class Way {
   }
 
   Relaxation& relaxation() { return relaxation_; }
+
+  /// In a checkpoint between two steps.
+  void keep(Archive& a) {
+    keep_positions(a, d_.x, d_.model.n_particles(), relaxation_.mesh().largest_contact_distance);
+    a.keep(stage_, Stage::settling);
+    for (int* count : {&steps_in_stage_, &refused_, &repairs_, &d_.report.steps}) {
+      a.keep(*count);
+      a.demand(*count >= 0 && *count <= kMostCounted);
+    }
+    a.keep(last_strain_);
+    a.keep_any(d_.report.newton_step);
+    relaxation_.keep(a);
+  }
 
  private:
   enum class Stage { dressing, soft, settling };
@@ -203,14 +223,6 @@ class Way {
   Vectors before_;
 };
 
-/// The panel that the largest share of the net forces acts on, for messages.
-Index least_settled(const model::Model& model, const Vectors& force) {
-  std::vector<double> sum(model.panels.size(), 0);
-  for (std::size_t v = 0; v < model.n_vertices(); ++v)
-    sum[model.vertex_panel[v]] += force[model.vertex_particle[v]].squaredNorm();
-  return static_cast<Index>(std::max_element(sum.begin(), sum.end()) - sum.begin());
-}
-
 /// What most likely keeps the garment from rest.
 std::string advice(const Drape& d) {
   constexpr double kTornApart = 0.5;  // strain that no worn garment has
@@ -239,20 +251,29 @@ void explain(Drape& d, const ContactMesh& all, const Vectors& force) {
                         "place the panels farther from the body and from each other, or in the order in which they are worn"});
   }
   if (d.report.status == DrapeStatus::not_settled) {
-    const model::PanelRange& panel = d.model.panels[least_settled(d.model, force)];
+    const Culprit panel = panel_with_most(d.model, force);
     findings.push_back({"G0802", Severity::error,
-                        fmt::format("after {} steps the residual is {} of the weight, {} is rest; most of it is in `{}`",
+                        fmt::format("after {} steps the residual is {} of the weight, {} is rest; most of it is in {}",
                                     d.report.steps, format_number(d.report.residual, 3),
                                     format_number(target_residual(d.settings.settle), 3), panel.name),
                         {{panel.origin, "most of the net force acts here"}},
                         advice(d)});
   }
   if (d.report.status == DrapeStatus::diverged)
-    findings.push_back({"G0803", Severity::error, "the positions became infinite; the last finite state was kept", {},
-                        "check the fabric for extreme stiffness or density, and the resolution"});
+    findings.push_back(infinite_positions(d.model, d.infinite));
 }
 
 }  // namespace
+
+double number_or_infinite(double value) { return std::isnan(value) ? std::numeric_limits<double>::infinity() : value; }
+
+DrapeReport not_resumed() {
+  DrapeReport report;
+  report.status = DrapeStatus::not_resumed;
+  report.findings.push_back({"G0810", Severity::error, "the checkpoint holds no state that this drape could have been in", {},
+                             "run it from the start, without `--resume`"});
+  return report;
+}
 
 double target_residual(Settle settle) {
   switch (settle) {
@@ -269,9 +290,10 @@ DrapeReport drape(const model::Model& model, const std::vector<body::Body>& bodi
   Drape d{model, bodies, settings, report, state.position.empty() ? model.start : state.position};
   ContactMesh all(model, bodies, ContactOptions{settings.self_collision, 0, 0});
   Way way(d, all);
+  if (!settings.checkpoints.resume.empty() && !settings.checkpoints.restore(way)) return not_resumed();
   report.status = way.go();
   Vectors force;
-  report.residual = way.relaxation().residual(d.x, force);
+  report.residual = number_or_infinite(way.relaxation().residual(d.x, force));
   report.energy = way.relaxation().energy(d.x);
   report.reactions = way.relaxation().reactions();
   state.position = d.x;

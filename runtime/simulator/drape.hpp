@@ -7,6 +7,7 @@
 #include "runtime/base/finding.hpp"
 #include "runtime/body/body.hpp"
 #include "runtime/model/model.hpp"
+#include "runtime/simulator/checkpoints.hpp"
 #include "runtime/simulator/energy_balance.hpp"
 
 namespace garment::simulator {
@@ -31,6 +32,7 @@ struct DrapeSettings {
   bool certify = true;        ///< at rest, go on until the exact test finds nothing; off for coarse grids
   std::function<void(const DrapeProgress&)> progress;  ///< called between steps; may be empty
   std::function<bool()> interrupted;                   ///< asked between steps; may be empty
+  Checkpoints checkpoints;
 };
 
 enum class DrapeStatus {
@@ -39,7 +41,8 @@ enum class DrapeStatus {
   not_settled,
   tangled,
   diverged,
-  ran,  ///< for its time: `drape for`
+  ran,          ///< for its time: `drape for`
+  not_resumed,  ///< the checkpoint is not one of this drape
 };
 
 struct DrapeReport {
@@ -55,6 +58,9 @@ struct DrapeReport {
   MotionReport motion;              ///< of `drape for`; zero seconds for a drape to rest
   Findings findings;                ///< what could not be reached, with the panel that is the cause
 };
+
+/// What a drape says of a checkpoint that is none of its own (G0810).
+DrapeReport not_resumed();
 
 /// RMS residual over RMS weight below which a garment rests.
 double target_residual(Settle settle);

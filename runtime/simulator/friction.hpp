@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "runtime/base/archive.hpp"
 #include "runtime/simulator/block_matrix.hpp"
 #include "runtime/simulator/holds.hpp"
 
@@ -52,6 +53,7 @@ class BodyFriction {
   /// Forgets all anchors.
   void clear();
   const std::vector<std::uint32_t>& touching() const { return active_; }
+  void keep(Archive& a);  ///< in a checkpoint
 
  private:
   struct Touch {

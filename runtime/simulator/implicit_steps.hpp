@@ -21,6 +21,7 @@ class ImplicitSteps {
   ImplicitSteps(MovingCloth& cloth, double tolerance, Effort effort) : cloth_(cloth), tolerance_(tolerance), effort_(effort) {}
 
   TimeStep step(MotionState& state, double h);
+  void keep(Archive& a);  ///< in a checkpoint
 
  private:
   enum class Scheme { euler, bdf2 };

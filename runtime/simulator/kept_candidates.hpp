@@ -2,6 +2,7 @@
 // The list of near pairs that a drape or a motion keeps from step to step.
 #include <vector>
 
+#include "runtime/base/archive.hpp"
 #include "runtime/simulator/candidates.hpp"
 
 namespace garment::simulator {
@@ -22,6 +23,7 @@ class KeptCandidates {
   /// The next refresh makes a new one.
   void forget() { known_ = false; }
   bool known() const { return known_; }
+  void keep(Archive& a);  ///< in a checkpoint: the list is found again from the positions at which it was found
 
  private:
   void rebuild(const std::vector<Vector3d>& x);

@@ -29,6 +29,7 @@ class LinearSolver {
                      const std::vector<Eigen::Vector3d>& b, double tolerance, int max_iterations,
                      std::vector<Eigen::Vector3d>& x,
                      const std::vector<Eigen::Vector3d>* positions = nullptr);
+  void keep(Archive& a);  ///< in a checkpoint
 
  private:
   double multiply(const BlockMatrix& matrix, const std::vector<ContactStiffness>& contacts);

@@ -7,14 +7,17 @@
 #include <limits>
 
 #include "runtime/base/number.hpp"
+#include "runtime/model/archive_points.hpp"
 #include "runtime/simulator/certificate.hpp"
 #include "runtime/simulator/cloth_contact.hpp"
 #include "runtime/simulator/constraint_steps.hpp"
+#include "runtime/simulator/culprit.hpp"
 #include "runtime/simulator/explicit_steps.hpp"
 #include "runtime/simulator/implicit_steps.hpp"
 #include "runtime/simulator/moved_bodies.hpp"
 #include "runtime/simulator/quasi_static_steps.hpp"
 #include "runtime/simulator/reactions.hpp"
+#include "runtime/simulator/solver_state.hpp"
 
 namespace garment::simulator {
 namespace {
@@ -28,6 +31,7 @@ constexpr double kShareOfBound = 0.9;      // of the stability bound, where no s
 constexpr int kMostHalvings = 6;
 constexpr int kGrowAfter = 8;              // steps that go well, before one that was halved is doubled
 constexpr double kBodyStride = 0.5;        // of the distance at which bodies begin to push
+constexpr double kCrowd = 1e-3;            // m, in which a checkpoint may not have crowds of particles
 constexpr double kOpen = 0.5;              // strain of seams that are still open
 constexpr double kSame = 1e-9;             // s
 constexpr double kSameShare = 1e-3;        // of a step
@@ -55,26 +59,50 @@ class Mover {
   }
 
   void go() {
-    start_report();
-    if (!find_step()) return;
-    tell_frame();
+    if (!settings_.checkpoints.resume.empty()) {
+      if (!settings_.checkpoints.restore(*this)) return void(report_ = not_resumed());
+    } else {
+      start_report();
+      if (!find_step()) return;
+      tell_frame();
+    }
     const double end = begun_ + settings_.duration;
-    double frame = next_frame();
     while (s_.time < end - kSame) {
-      if (settings_.interrupted && settings_.interrupted()) {
+      const bool stop_asked = settings_.interrupted && settings_.interrupted();
+      settings_.checkpoints.look(*this, stop_asked);
+      if (stop_asked) {
         report_.status = DrapeStatus::interrupted;
         return;
       }
       if (report_.motion.steps >= settings_.max_steps) return out_of_steps();
       const double same = kSameShare * step_;  // stops so near are one: a step between them is all rounding
-      const double stop = frame > end - same ? end : frame;
+      const double stop = frame_ > end - same ? end : frame_;
       if (!step(stop)) return;
-      if (s_.time >= frame - same) {
-        tell_frame();
-        frame = next_frame();
-      }
+      if (s_.time >= frame_ - same) tell_frame();
     }
     report_.status = DrapeStatus::ran;
+  }
+
+  /// In a checkpoint between two steps.
+  void keep(Archive& a) {
+    const std::size_t n = model_.n_particles();
+    keep_positions(a, s_.x, n, kCrowd);
+    model::keep(a, s_.v, n);
+    model::keep(a, s_.x_before, n, true);
+    model::keep(a, s_.v_before, n, s_.x_before.empty());
+    for (double* value : {&s_.step_before, &s_.time, &begun_, &step_}) a.keep(*value);
+    a.keep_any(frame_);
+    for (int* count : {&halvings_, &well_}) {
+      a.keep(*count);
+      a.demand(*count >= 0 && *count <= kMostCounted);
+    }
+    a.demand(step_ > 0 && halvings_ <= kMostHalvings && s_.time >= begun_ && (s_.x_before.empty() || s_.step_before > 0));
+    a.demand(s_.time <= begun_ + settings_.duration + kSame && frame_ >= s_.time - kSameShare * step_);
+    simulator::keep(a, report_, model_.holders.size());
+    a.keep(redundant_);
+    implicit_.keep(a);
+    if (a.ok()) cloth_.keep(a, s_.time);
+    if (a.reading() && a.ok()) tell_redundant();
   }
 
   void write(model::State& state) const {
@@ -132,8 +160,8 @@ class Mover {
         count(t, h);
         return !is_explicit() || report_.motion.steps % kLookAgain != 0 || find_step();
       }
-      report_.residual = t.residual;
-      if (++halvings_ > kMostHalvings) return stuck();
+      report_.residual = number_or_infinite(t.residual);
+      if (++halvings_ > kMostHalvings) return stuck(t.unborne.empty() ? s_.v : t.unborne);
       well_ = 0;
     }
   }
@@ -168,28 +196,33 @@ class Mover {
     report_.residual = t.residual;
     report_.energy = t.stored;
     report_.reactions = reactions(model_, cloth_.holds(), t.unborne);
-    if (m.steps == 1 && settings_.method == MotionMethod::dynamic_constraints) tell_redundant();
+    if (m.steps == 1 && settings_.method == MotionMethod::dynamic_constraints) {
+      redundant_ = constraints_.redundant();
+      tell_redundant();
+    }
     if (halvings_ > 0 && ++well_ >= kGrowAfter) --halvings_, well_ = 0;
     if (settings_.progress)
       settings_.progress({m.steps, s_.x.size(), t.residual, settings_.tolerance, 0, "moving", m.seconds, settings_.duration});
   }
 
   void tell_redundant() {
-    if (constraints_.redundant() == 0) return;
+    if (redundant_ == 0) return;
     report_.findings.push_back({"G0809", Severity::note,
-                                fmt::format("{} of the rows of the constraints say what others say already", constraints_.redundant()),
+                                fmt::format("{} of the rows of the constraints say what others say already", redundant_),
                                 {},
                                 "nothing is to be done: they share the force; a particle that is both pinned and constrained has such rows"});
   }
 
-  bool stuck() {
+  /// `unsolved`: what is left of the equations, or what else tells panels that are at rest from others.
+  bool stuck(const Vectors& unsolved) {
+    const Culprit panel = panel_with_most(model_, unsolved);
     const bool finite = std::isfinite(report_.residual);
     report_.status = DrapeStatus::diverged;
     report_.findings.push_back(
         {"G0807", Severity::error,
-         fmt::format("at {} s no step of {} s or less could be made; the state before it was kept", format_number(s_.time - begun_, 4),
-                     format_number(std::ldexp(step_, -kMostHalvings), 3)),
-         {},
+         fmt::format("at {} s no step of {} s or less could be made, most of what is left is in {}; the state before it was kept",
+                     format_number(s_.time - begun_, 4), format_number(std::ldexp(step_, -kMostHalvings), 3), panel.name),
+         {{panel.origin, "most of what is left acts here"}},
          finite ? "let the garment come to rest first (`drape until rest`), or move what moves it more slowly"
                 : "check the fabric for extreme stiffness or density, and the resolution"});
     return false;
@@ -197,10 +230,11 @@ class Mover {
 
   void out_of_steps() {
     report_.status = DrapeStatus::not_settled;
+    const Culprit panel = panel_with_most(model_, s_.v);
     report_.findings.push_back({"G0802", Severity::error,
-                                fmt::format("after {} steps the garment has moved for {} of {} s", report_.motion.steps,
-                                            format_number(s_.time - begun_, 4), format_number(settings_.duration, 4)),
-                                {},
+                                fmt::format("after {} steps the garment has moved for {} of {} s; {} moves most", report_.motion.steps,
+                                            format_number(s_.time - begun_, 4), format_number(settings_.duration, 4), panel.name),
+                                {{panel.origin, "it moves most"}},
                                 "let the garment move for a shorter time, or take longer steps (`solver implicit step 10 ms`)"});
   }
 
@@ -208,10 +242,12 @@ class Mover {
     return settings_.next_frame ? settings_.next_frame(s_.time) : std::numeric_limits<double>::infinity();
   }
   void tell_frame() {
-    if (!settings_.frame) return;
-    model::State now;
-    write(now);
-    settings_.frame(now, report_);
+    if (settings_.frame) {
+      model::State now;
+      write(now);
+      settings_.frame(now, report_);
+    }
+    frame_ = next_frame();
   }
 
   const model::Model& model_;
@@ -223,7 +259,9 @@ class Mover {
   ConstraintSteps constraints_;
   MotionState s_;
   double begun_, step_ = kUsualStep;
+  double frame_ = std::numeric_limits<double>::infinity();  // s, the next
   int halvings_ = 0, well_ = 0;
+  std::size_t redundant_ = 0;  // rows of the first step
 };
 
 bool is_open(const model::Model& model, const model::State& state, DrapeReport& report) {
@@ -261,11 +299,13 @@ DrapeReport move_on(const model::Model& model, const std::vector<body::Body>& bo
   if (is_open(model, state, report)) return report;
   if (settings.method == MotionMethod::quasi_static) {
     report = follow_paths(model, bodies, state, settings);
+    if (report.status == DrapeStatus::not_resumed) return report;
     look_at(model, state, bodies_at(bodies, model, state.time), report);
     return report;
   }
   Mover mover(model, bodies, state, settings, report);
   mover.go();
+  if (report.status == DrapeStatus::not_resumed) return report;
   mover.write(state);
   look_at(model, state, bodies_at(bodies, model, state.time), report);
   return report;

@@ -24,6 +24,7 @@ struct MotionSettings {
   int max_steps = 10'000'000;
   std::function<void(const DrapeProgress&)> progress;  ///< called between steps; may be empty
   std::function<bool()> interrupted;                   ///< asked between steps; may be empty
+  Checkpoints checkpoints;
   /// Called at the start and at every time that `next_frame` names; steps end exactly there. Both may be empty. The report has
   /// what is known by then.
   std::function<void(const model::State&, const DrapeReport&)> frame;

@@ -97,6 +97,8 @@ class MovingCloth {
   double push_distance() const { return bodies_.least_distance(); }
   /// Bound on the stiffness that contacts may add to one particle, N/m.
   double largest_contact_stiffness() const;
+  /// In a checkpoint between two steps, at `time`, s.
+  void keep(Archive& a, double time);
 
  private:
   void weigh_contacts(const std::vector<Eigen::Vector3d>& x);

@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "runtime/base/archive.hpp"
 #include "runtime/simulator/aggregates.hpp"
 #include "runtime/simulator/block_cholesky.hpp"
 #include "runtime/simulator/block_matrix.hpp"
@@ -37,6 +38,7 @@ class Preconditioner {
   double apply(const std::vector<Eigen::Vector3f>& r, std::vector<Eigen::Vector3f>& z);
 
   const Aggregates& aggregates() const { return groups_; }
+  void keep(Archive& a);  ///< in a checkpoint
 
  private:
   void group(const std::vector<Eigen::Vector3d>* positions);

@@ -8,8 +8,10 @@
 
 #include "runtime/base/number.hpp"
 #include "runtime/model/motion.hpp"
+#include "runtime/simulator/culprit.hpp"
 #include "runtime/simulator/moved_bodies.hpp"
 #include "runtime/simulator/relaxation.hpp"
+#include "runtime/simulator/solver_state.hpp"
 
 namespace garment::simulator {
 namespace {
@@ -52,23 +54,40 @@ class Follower {
         relaxation_(moved_, bodies, relaxation_settings(settings)),
         begun_(state.time) {}
 
+  double seconds() const { return state_.time - begun_; }
+
   void go() {
-    place(state_.time);
-    if (!settle()) return;
-    tell_frame();
+    if (settings_.checkpoints.resume.empty()) {
+      place(state_.time);
+      begin_to_settle();
+    } else if (!settings_.checkpoints.restore(*this)) {
+      report_ = not_resumed();
+      return;
+    }
     const double end = begun_ + settings_.duration;
-    double frame = next_frame();
-    while (state_.time < end - 1e-12) {
-      const double to = std::min({end, frame, state_.time + stride(end)});
+    while (settle()) {
+      if (state_.time >= frame_ - 1e-12) tell_frame();
+      if (!(state_.time < end - 1e-12)) {
+        report_.status = DrapeStatus::ran;
+        return;
+      }
+      const double to = std::min({end, frame_, state_.time + stride(end)});
       place(to);
       state_.time = to;
-      if (!settle()) return;
-      if (to >= frame - 1e-12) {
-        tell_frame();
-        frame = next_frame();
-      }
+      begin_to_settle();
     }
-    report_.status = DrapeStatus::ran;
+  }
+
+  /// In a checkpoint between two steps of the relaxation.
+  void keep(Archive& a) {
+    keep_positions(a, state_.position, start_.n_particles(), relaxation_.mesh().largest_contact_distance);
+    for (double* value : {&state_.time, &begun_}) a.keep(*value);
+    a.keep_any(frame_);
+    a.keep(steps_);
+    a.demand(steps_ >= 0 && steps_ <= kMostSteps && state_.time >= begun_ && state_.time <= begun_ + settings_.duration);
+    simulator::keep(a, report_, start_.holders.size());
+    if (a.reading() && a.ok()) place(state_.time);
+    if (a.ok()) relaxation_.keep(a);
   }
 
  private:
@@ -102,12 +121,18 @@ class Follower {
     return speed > 0 ? std::min(most, kShareOfSpacing * mean_spring(start_) / speed) : most;
   }
 
-  bool settle() {
+  void begin_to_settle() {
     relaxation_.set_time_step(kRestTimeStep);
     relaxation_.forget_swings();
+    steps_ = 0;
+  }
+
+  bool settle() {
     Vectors before;
-    for (int k = 0; k < kMostSteps && report_.steps < settings_.max_steps; ++k) {
-      if (settings_.interrupted && settings_.interrupted()) {
+    for (; steps_ < kMostSteps && report_.steps < settings_.max_steps; ++steps_) {
+      const bool stop_asked = settings_.interrupted && settings_.interrupted();
+      settings_.checkpoints.look(*this, stop_asked);
+      if (stop_asked) {
         report_.status = DrapeStatus::interrupted;
         return false;
       }
@@ -115,10 +140,9 @@ class Follower {
       const StepReport step = relaxation_.step(state_.position);
       ++report_.steps;
       if (!std::all_of(state_.position.begin(), state_.position.end(), [](const Vector3d& p) { return p.allFinite(); })) {
+        report_.findings.push_back(infinite_positions(start_, state_.position));
         state_.position = before;
         report_.status = DrapeStatus::diverged;
-        report_.findings.push_back({"G0803", Severity::error, "the positions became infinite; the last finite state was kept", {},
-                                    "check the fabric for extreme stiffness or density, and the resolution"});
         return false;
       }
       report_.residual = step.residual;
@@ -128,14 +152,17 @@ class Follower {
                             step.largest_motion, "following", state_.time - begun_, settings_.duration});
       const double target = target_residual(Settle::equilibrium);
       const bool judged = step.residual <= kNothing * target || (step.time_step >= kRestTimeStep && step.newton_step < kRestStep);
-      if (k > 0 && step.residual <= target && judged && held_in_place()) return true;
+      if (steps_ > 0 && step.residual <= target && judged && held_in_place()) return true;
     }
     report_.status = DrapeStatus::not_settled;
+    Vectors force;
+    relaxation_.residual(state_.position, force);
+    const Culprit panel = panel_with_most(start_, force);
     report_.findings.push_back({"G0802", Severity::error,
-                                fmt::format("at {} s the residual is {} of the weight after {} steps, {} is rest",
-                                            format_number(state_.time, 4), format_number(report_.residual, 3), kMostSteps,
-                                            format_number(target_residual(Settle::equilibrium), 3)),
-                                {},
+                                fmt::format("at {} s the residual is {} of the weight after {} steps, {} is rest; most of it is in {}",
+                                            format_number(state_.time, 4), format_number(report_.residual, 3), steps_,
+                                            format_number(target_residual(Settle::equilibrium), 3), panel.name),
+                                {{panel.origin, "most of the net force acts here"}},
                                 "move it less far, or let the cloth move in earnest: leave `solver quasi_static` out"});
     return false;
   }
@@ -161,6 +188,7 @@ class Follower {
     report_.energy = relaxation_.energy(state_.position);
     report_.motion.seconds = state_.time - begun_;
     if (settings_.frame) settings_.frame(state_, report_);
+    frame_ = next_frame();
   }
 
   const model::Model& start_;
@@ -171,6 +199,8 @@ class Follower {
   model::Model moved_;
   Relaxation relaxation_;
   double begun_;
+  double frame_ = -std::numeric_limits<double>::infinity();  // s, the next; the first is where it begins
+  int steps_ = 0;                                            // since something was moved last
 };
 
 }  // namespace
@@ -178,11 +208,11 @@ class Follower {
 DrapeReport follow_paths(const model::Model& model, const std::vector<body::Body>& bodies, model::State& state,
                          const MotionSettings& settings) {
   DrapeReport report;
-  const double begun = state.time;
   Follower follower(model, bodies, state, settings, report);
   follower.go();
+  if (report.status == DrapeStatus::not_resumed) return report;
   state.velocity.assign(state.position.size(), Vector3d::Zero());
-  report.motion.seconds = state.time - begun;
+  report.motion.seconds = follower.seconds();
   const model::Model moved = model::at_time(model, state.time);
   const std::vector<body::Body> now = bodies_at(bodies, model, state.time);
   RelaxationSettings end;

@@ -79,6 +79,8 @@ class Relaxation {
   /// Exempts what is tangled now from contacts and walls, and remembers to take it apart with every step.
   void set_tangle(Tangle tangle);
   const Tangle& tangle() const { return tangle_; }
+  /// In a checkpoint: all that lasts from step to step but the positions and where bodies and holds are.
+  void keep(Archive& a);
 
  private:
   void refresh_candidates(const std::vector<Eigen::Vector3d>& x);

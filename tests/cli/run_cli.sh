@@ -256,6 +256,7 @@ complains "G0331"
 exists expects/garment.obj
 run 4 run slow.garment --no-pictures --max-steps 1 -o hurried
 complains "error[G0802]"
+complains "how the garment lies then is written to \`hurried/garment.obj\`"
 exists hurried/garment.obj
 is_json hurried/report.json
 # With --json the report and the diagnostics are one document.
@@ -717,6 +718,13 @@ sed -i 's/^expect.*/expect strain(cloth) > 90%/' mine/draped.garment
 run 1 test mine --filter draped
 says "does not hold"
 run 0 test mine --filter draped --no-drape
+# What `check` refuses is no passed script, draped or not; libraries are looked for where --library says.
+mkdir trimmed && cp trimmed.garment trimmed/trimmed.garment
+run 1 test trimmed
+run 1 test trimmed --no-drape
+says "error[G0318]"
+run 0 test trimmed --no-drape --library trims --library more_trims
+run 0 test trimmed --library trims --library more_trims
 run 0 test mine --list
 says "run    mine/draped.garment"
 says "format mine/format/loose.garment"

@@ -63,7 +63,7 @@ const std::map<std::string, std::string> kElsewhere = {
     {"G0651", "unit/modeller"}, {"G0652", "unit/modeller"},
     // A fault of the program; what only a drape finds.
     {"G0490", "unit/model"}, {"G0801", "physics"}, {"G0802", "physics"}, {"G0803", "physics"},
-    {"G0807", "physics"}, {"G0808", "physics"},
+    {"G0807", "physics"}, {"G0808", "physics"}, {"G0810", "unit/simulator"},
     // Patterns in JSON.
     {"G0941", "unit/io"}, {"G0942", "unit/io"}, {"G0943", "unit/io"}, {"G0944", "unit/io"}, {"G0945", "unit/io"},
     {"G0946", "unit/io"}, {"G0947", "unit/io"}, {"G0948", "unit/io"}, {"G0949", "unit/io"}, {"G0950", "unit/io"},

@@ -127,3 +127,20 @@ TEST_CASE("a confined host reads below its folders and writes nothing") {
   CHECK_FALSE(host.write_file(f.at("x.txt"), "x"));
   CHECK_FALSE(fs::exists(f.at("x.txt")));
 }
+
+TEST_CASE("removing stays below the granted folder, and takes links, not what they name") {
+  const Folders f;
+  fs::create_symlink(f.root / "outside/secret.txt", f.at("link.txt"));
+  fs::create_symlink(f.root / "outside", f.at("folder"));
+  const auto remove = [&](const std::string& path) { system_host().remove_below({f.granted()}, path); };
+  for (const std::string& path : {f.at("../outside/secret.txt"), (f.root / "outside/secret.txt").string(), f.at("folder/secret.txt"),
+                                  f.at("no_such_file.txt"), f.at("inner")})
+    remove(path);
+  CHECK(Folders::read(f.root / "outside/secret.txt") == "secret");
+  CHECK(fs::exists(f.at("inner/below.txt")));
+  remove(f.at("link.txt"));
+  remove(f.at("here.txt"));
+  CHECK_FALSE(fs::exists(fs::symlink_status(f.at("link.txt"))));
+  CHECK_FALSE(fs::exists(f.at("here.txt")));
+  CHECK(Folders::read(f.root / "outside/secret.txt") == "secret");
+}
