@@ -100,6 +100,7 @@ int main(int argc, char** argv) {
   add_common(run_command, o);
   run_command->add_option("-o,--out", o.run.out, "folder for the results (default: the script's name, here)");
   run_command->add_flag("!--no-pictures", o.run.pictures, "write no pictures");
+  run_command->add_flag("!--no-self-collision", o.run.self_collision, "cloth passes through cloth: faster, for comparisons");
   run_command->add_flag("--ply", o.run.ply, "also write garment.ply, with strain");
   run_command->add_option("--paper", o.paper, "sheets of a .pdf pattern: " + garment::io::paper_names())->capture_default_str();
   run_command->add_flag("--resume", o.run.checkpoints.resume, "go on from the last checkpoint in the results folder");

@@ -93,6 +93,7 @@ struct Run {
   void drape(const interpreter::DrapeAct& act, grammar::Span span) {
     session::DrapeScene scene{project.result, bodies, model, draped, {}, &recorder};
     if (options.max_steps > 0) scene.settings.max_steps = options.max_steps;
+    scene.settings.self_collision = options.self_collision;
     scene.settings.progress = [this](const simulator::DrapeProgress& p) { terminal.progress(p, host); };
     scene.settings.interrupted = [this] { return host.interrupted(); };
     scene.settings.checkpoints.resume = resume;

@@ -13,6 +13,7 @@ struct RunOptions {
   ProjectOptions project;
   std::string out;         ///< results folder; empty: the script's name in the current folder
   bool pictures = true;
+  bool self_collision = true;
   bool ply = false;
   io::PaperSize paper;     ///< of a .pdf
   int max_steps = 0;       ///< 0: the simulator's own limit

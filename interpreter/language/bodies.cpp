@@ -180,6 +180,8 @@ std::string checked_level(Program& program, const BodyPlaceValue& place, Span sp
   return place.path;
 }
 
+bool is_plain(Program& program, int body, Span span) { return offer_of(program, body, span).parts.empty(); }
+
 std::string checked_part(Program& program, const BodyPlaceValue& place, Span span, bool side) {
   Offer offer = offer_of(program, place.body, span);
   const bool torso = has(offer.parts, "torso");

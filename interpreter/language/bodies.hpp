@@ -26,6 +26,8 @@ Value body_member(Program& program, const Expr& expr, int index, const std::stri
 
 /// A level that the body has, or a report and Stop.
 std::string checked_level(Program& program, const BodyPlaceValue& place, Span span);
+/// True where the body has no parts: a plain shape.
+bool is_plain(Program& program, int body, Span span);
 /// A part that cloth can be put on: "front", "back", "left", "right" need a torso; others must be parts of
 /// the body.
 std::string checked_part(Program& program, const BodyPlaceValue& place, Span span, bool side);

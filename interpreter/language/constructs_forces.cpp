@@ -79,7 +79,7 @@ std::vector<ConstructRecord> forces_constructs() {
        .example = "drag 1.2",
        .run = run_drag},
       {.keyword = "solver",
-       .form = "solver quasi_static | dynamic_constraints | implicit | explicit [step TIME]",
+       .form = "solver quasi_static | dynamic_constraints | implicit | semi_implicit | explicit [step TIME]",
        .doc = "chooses how the particles are moved",
        .example = "solver quasi_static",
        .clauses = {{"step", "TIME", "the step of a motion", kTime, 1e-7, 1}},

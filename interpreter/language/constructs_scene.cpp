@@ -19,12 +19,12 @@ std::vector<ConstructRecord> scene_constructs() {
        .reserve = reserve_body,
        .forget = forget_body},
       {.keyword = "place",
-       .form = "place PANEL on BODY.PART [with EDGE at LEVEL] | around BODY.PART | at (X, Y, Z) turn (RX, "
+       .form = "place PANEL on BODY.PART [with EDGE at LEVEL] | around BODY.PART | around SHAPE | at (X, Y, Z) turn (RX, "
                "RY, RZ) | flat at (X, Y, Z) | start folded",
        .doc = "where a panel starts in space",
        .example = "place front on form.front with waist at form.waist offset 1 cm",
        .clauses = {{"on", "BODY.front | BODY.back | ...", "wrapped onto a side of the body"},
-                   {"around", "BODY.PART", "wrapped round a limb or the torso"},
+                   {"around", "BODY.PART | SHAPE", "wrapped round a limb, the torso or a plain shape"},
                    {"with", "EDGE", "the edge that comes to the level"},
                    {"at", "LEVEL | (X, Y, Z)", "the level, or the place of the panel's origin"},
                    {"turn", "(RX, RY, RZ)", "turned by Rz Ry Rx"},

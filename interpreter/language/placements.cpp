@@ -98,14 +98,21 @@ class Placer {
     return clauses_.find("start") != nullptr;
   }
 
+  static constexpr const char* kWhole = "";
+
+  /// A part of a body, or a whole plain shape.
+  BodyPlaceValue round(const Expr& expr, Scope& scope) {
+    const Value value = eval(program_, expr, scope);
+    if (const auto* body = value.as<BodyValue>(); body != nullptr && is_plain(program_, body->body, expr.span)) return {body->body, kWhole};
+    return eval_body_place(program_, expr, scope, "`around` takes a part of a body, or a plain shape");
+  }
+
   void wrap(const BoundClause& clause, design::Placement::Kind kind) {
     const bool side = kind == design::Placement::Kind::on_part;
     const Expr& expr = clauses_.value(clause);
-    const BodyPlaceValue place =
-        eval_body_place(program_, expr, *clause.scope,
-                        side ? "`on` takes a side of a body" : "`around` takes a part of a body");
+    const BodyPlaceValue place = side ? eval_body_place(program_, expr, *clause.scope, "`on` takes a side of a body") : round(expr, *clause.scope);
     placement_.kind = kind;
-    placement_.part = checked_part(program_, place, expr.span, side);
+    placement_.part = place.path == kWhole ? kWhole : checked_part(program_, place, expr.span, side);
     placement_.body = program_.garment.bodies[static_cast<std::size_t>(place.body)].name;
     if (const auto offset = clauses_.quantity("offset")) placement_.offset = *offset;
     const BoundClause* with = clauses_.find("with");

@@ -169,7 +169,7 @@ void run_solver(Program& program, const Item& item) {
   choice.origin = program.origin(statement.span);
   choice.method = static_cast<design::SolverChoice::Method>(
       eval_word(program, only_operand(program, statement, "solver quasi_static"),
-                {"quasi_static", "dynamic_constraints", "implicit", "explicit"}, "solver"));
+                {"quasi_static", "dynamic_constraints", "implicit", "semi_implicit", "explicit"}, "solver"));
   Clauses clauses(program, statement, *item.scope);
   const BoundClause* stated = clauses.find("step");
   if (const auto step = clauses.quantity("step")) choice.step = *step;

@@ -225,7 +225,7 @@ class Unparser {
   void write_placement(std::size_t p) {
     const Placement& place = garment_.panels[p].placement;
     std::string statement = "place " + names_.panels[p];
-    std::string part = fmt::format("{}.{}", body_called(place.body), place.part);
+    const std::string part = body_called(place.body) + (place.part.empty() ? "" : "." + place.part);
     switch (place.kind) {
       case Placement::Kind::none:
         if (place.folded) line(statement + " start folded");

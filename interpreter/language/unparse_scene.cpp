@@ -80,7 +80,7 @@ std::string friction(const design::FrictionPair& pair, const Names& names) {
 }
 
 std::string solver(const design::SolverChoice& choice) {
-  constexpr const char* kMethods[] = {"quasi_static", "dynamic_constraints", "implicit", "explicit"};
+  constexpr const char* kMethods[] = {"quasi_static", "dynamic_constraints", "implicit", "semi_implicit", "explicit"};
   std::string out = std::string("solver ") + kMethods[static_cast<int>(choice.method)];
   if (choice.step > 0) out += " step " + format_number(choice.step) + " s";
   return out;

@@ -24,6 +24,7 @@ simulator::MotionMethod method_of(const design::Garment& garment) {
     case design::SolverChoice::Method::quasi_static: return simulator::MotionMethod::quasi_static;
     case design::SolverChoice::Method::explicit_steps: return simulator::MotionMethod::explicit_steps;
     case design::SolverChoice::Method::dynamic_constraints: return simulator::MotionMethod::dynamic_constraints;
+    case design::SolverChoice::Method::semi_implicit: return simulator::MotionMethod::semi_implicit;
     case design::SolverChoice::Method::implicit: break;
   }
   return simulator::MotionMethod::implicit;
@@ -34,6 +35,7 @@ simulator::DrapeReport for_a_time(double duration, const DrapeScene& scene, mode
   settings.duration = duration;
   settings.method = method_of(scene.script.garment);
   if (scene.script.garment.scene.solver) settings.step = scene.script.garment.scene.solver->step;
+  settings.self_collision = scene.settings.self_collision;
   settings.progress = scene.settings.progress;
   settings.interrupted = scene.settings.interrupted;
   settings.checkpoints = scene.settings.checkpoints;

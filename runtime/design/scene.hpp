@@ -81,7 +81,7 @@ struct Wind {
 /// The method that moves the particles.
 struct SolverChoice {
   OriginId origin;
-  enum class Method { quasi_static, dynamic_constraints, implicit, explicit_steps } method = Method::quasi_static;
+  enum class Method { quasi_static, dynamic_constraints, implicit, semi_implicit, explicit_steps } method = Method::quasi_static;
   double step = 0;  ///< s; 0: chosen by the solver
 };
 

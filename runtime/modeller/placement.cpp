@@ -130,7 +130,7 @@ std::optional<double> base_height(Workspace& w, std::size_t panel, const body::B
 }
 
 bool is_ring_part(const std::string& part) {
-  return part == "front" || part == "back" || part == "left" || part == "right" || part == "torso";
+  return part.empty() || part == "front" || part == "back" || part == "left" || part == "right" || part == "torso";
 }
 
 bool wraps_torso(const Placement& p) {

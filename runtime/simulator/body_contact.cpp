@@ -68,6 +68,13 @@ BodyContact::BodyContact(const model::Model& model, const std::vector<body::Body
       friction_[model.rub_body[k]][model.rub_particle[k]] = model.rub_factor[k];
 }
 
+double BodyContact::least_distance() const {
+  double least = 1e300;
+  for (std::size_t i = 0; i < padding_.size(); ++i)
+    least = std::min(least, offset_ + extra_offset_[i] + model_.thickness[i] / 2 + padding_[i]);
+  return least;
+}
+
 void BodyContact::find(const Vectors& x) {
   pushes_.clear();
   narrow_.clear();

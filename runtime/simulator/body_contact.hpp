@@ -68,6 +68,7 @@ class BodyContact {
   /// By how much more than the settings' offset bodies keep each particle away, m [n_particles].
   std::vector<double>& extra_offset() { return extra_offset_; }
   double stiffness() const { return stiffness_; }  ///< of one particle, N/m
+  double least_distance() const;                   ///< at which a body begins to push a particle, over all of them, m
 
   /// Moves the bodies [n_bodies]: from where they are given to where they are now. Anchors of `friction` on a body go with it.
   void place(const std::vector<model::Placement>& placements, BodyFriction& friction);

@@ -53,19 +53,26 @@ void Bvh::split(std::int32_t begin, std::int32_t end, const std::vector<FloatBox
   nodes_[node].skip = static_cast<std::int32_t>(nodes_.size());
 }
 
+std::vector<FloatBox> Bvh::node_boxes(const std::vector<FloatBox>& boxes) const {
+  if (boxes.empty()) return {};
+  std::vector<FloatBox> out(nodes_.size());
+  for (auto i = static_cast<std::int32_t>(nodes_.size()) - 1; i >= 0; --i) {  // children stand behind parents
+    const Node& node = nodes_[i];
+    if (is_leaf(i)) {
+      for (std::int32_t k = node.begin; k < node.end; ++k) out[i].grow(boxes[order_[k]]);
+    } else {
+      out[i].grow(out[i + 1]);
+      out[i].grow(out[nodes_[i + 1].skip]);
+    }
+  }
+  return out;
+}
+
 void Bvh::refit(const std::vector<FloatBox>& boxes) {
   leaf_boxes_.resize(order_.size());
   for (std::size_t k = 0; k < order_.size(); ++k) leaf_boxes_[k] = boxes[order_[k]];
-  for (auto i = static_cast<std::int32_t>(nodes_.size()) - 1; i >= 0; --i) {  // children stand behind parents
-    Node& node = nodes_[i];
-    node.box = FloatBox{};
-    if (node.skip == i + 1) {
-      for (std::int32_t k = node.begin; k < node.end; ++k) node.box.grow(leaf_boxes_[k]);
-    } else {
-      node.box.grow(nodes_[i + 1].box);
-      node.box.grow(nodes_[nodes_[i + 1].skip].box);
-    }
-  }
+  const std::vector<FloatBox> all = node_boxes(boxes);
+  for (std::size_t i = 0; i < nodes_.size(); ++i) nodes_[i].box = all[i];
 }
 
 }  // namespace garment::simulator

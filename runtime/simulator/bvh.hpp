@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace garment::simulator {
@@ -38,6 +39,15 @@ struct FloatBox {
     }
     return out;
   }
+  /// Of a vector in this box from one in the other, at most; rounded up.
+  float largest_difference(const FloatBox& b) const {
+    float sum = 0;
+    for (int k = 0; k < 3; ++k) {
+      const float most = std::max(high[k] - b.low[k], b.high[k] - low[k]);
+      sum += most * most;
+    }
+    return std::sqrt(sum) * 1.000001F;
+  }
   bool meets(const FloatBox& b) const {
     return (low[0] <= b.high[0]) & (b.low[0] <= high[0]) & (low[1] <= b.high[1]) & (b.low[1] <= high[1]) &
            (low[2] <= b.high[2]) & (b.low[2] <= high[2]);
@@ -66,6 +76,14 @@ class Bvh {
         if (leaf_boxes_[k].meets(box)) found(order_[k]);
     });
   }
+
+  std::size_t n_nodes() const { return nodes_.size(); }
+  const FloatBox& box(std::size_t node) const { return nodes_[node].box; }
+  /// Boxes of all nodes over other boxes of the same items.
+  std::vector<FloatBox> node_boxes(const std::vector<FloatBox>& boxes) const;
+  /// True where found(i, j) is true for two items i != j for whose nodes, and all nodes above those, apart(a, b) is not.
+  template <class Apart, class Found>
+  bool any_pair(const Apart& apart, const Found& found) const;
 
   /// Leaves hold at most kLeafSize items; leaf pairs below are numbered 0 .. n_leaves()-1.
   std::size_t n_leaves() const { return leaves_.size(); }
@@ -106,10 +124,39 @@ class Bvh {
     }
   }
 
+  bool is_leaf(std::int32_t node) const { return nodes_[node].skip == node + 1; }
+
   std::vector<Node> nodes_;
   std::vector<std::int32_t> order_;
   std::vector<std::int32_t> leaves_;  // their nodes
   std::vector<FloatBox> leaf_boxes_;  // of the items, in the order of the leaves
 };
+
+template <class Apart, class Found>
+bool Bvh::any_pair(const Apart& apart, const Found& found) const {
+  if (nodes_.empty()) return false;
+  std::vector<std::pair<std::int32_t, std::int32_t>> open{{0, 0}};
+  while (!open.empty()) {
+    const auto [a, b] = open.back();
+    open.pop_back();
+    if (apart(a, b)) continue;
+    if (is_leaf(a) && is_leaf(b)) {
+      for (std::int32_t i = nodes_[a].begin; i < nodes_[a].end; ++i)
+        for (std::int32_t j = a == b ? i + 1 : nodes_[b].begin; j < nodes_[b].end; ++j)
+          if (found(order_[i], order_[j])) return true;
+      continue;
+    }
+    const bool split_a = !is_leaf(a) && (is_leaf(b) || nodes_[a].end - nodes_[a].begin >= nodes_[b].end - nodes_[b].begin);
+    const std::int32_t split = split_a ? a : b, left = split + 1, right = nodes_[left].skip;
+    if (a == b) {
+      open.insert(open.end(), {{left, left}, {left, right}, {right, right}});
+    } else if (split_a) {
+      open.insert(open.end(), {{left, b}, {right, b}});
+    } else {
+      open.insert(open.end(), {{a, left}, {a, right}});
+    }
+  }
+  return false;
+}
 
 }  // namespace garment::simulator

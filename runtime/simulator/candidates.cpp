@@ -39,6 +39,18 @@ void collect(std::size_t n, std::vector<Pair>& out, const Query& query) {
 
 float below(double distance) { return static_cast<float>(std::max(0.0, distance * (1 - 1e-6) - 1e-12)); }
 
+/// Where parts (or nodes of a tree) are, how far from the reference, and how far they go in a step.
+struct BoxesOfMotion {
+  std::vector<FloatBox> at, moved, step;  // the last is empty where there is no step
+
+  /// Two that have moved by no more than `most` against each other, or that do not come nearer than `least`.
+  bool apart(std::int32_t a, std::int32_t b, float most, double least) const {
+    const float going = step.empty() ? 0.0F : step[a].largest_difference(step[b]);
+    if (moved[a].largest_difference(moved[b]) + going <= most) return true;
+    return !at[a].inflated(least + going).meets(at[b]);
+  }
+};
+
 /// The search for pairs at one set of positions.
 struct Search {
   const ContactMesh& mesh;
@@ -132,6 +144,27 @@ bool Candidates::valid(const std::vector<Vector3d>& x) const {
   return true;
 }
 
+bool Candidates::complete(const ContactMesh& mesh, const std::vector<Vector3d>& x, const std::vector<Vector3d>* dx,
+                          double least) const {
+  if (x.size() != reference_.size()) return false;
+  if (!mesh.options.self) return true;
+  const Bvh& tree = mesh.cloth_triangle_tree;
+  std::vector<FloatBox> at(mesh.n_cloth_triangles), moved(at.size()), step(dx ? at.size() : 0);
+  parallel_for(at.size(), 2048, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t)
+      for (Index p : mesh.triangle[t]) {
+        at[t].grow(x[p]);
+        moved[t].grow(x[p] - reference_[p]);
+        if (dx) step[t].grow((*dx)[p]);
+      }
+  });
+  const auto most = static_cast<float>((radius_ - least) * (1 - 1e-5));
+  const BoxesOfMotion node{tree.node_boxes(at), tree.node_boxes(moved), tree.node_boxes(step)};
+  const BoxesOfMotion part{std::move(at), std::move(moved), std::move(step)};
+  return !tree.any_pair([&](std::int32_t a, std::int32_t b) { return node.apart(a, b, most, least); },
+                        [&](std::int32_t a, std::int32_t b) { return !part.apart(a, b, most, least); });
+}
+
 void Candidates::exempt(const ContactMesh& mesh, const Tangle& tangle) {
   exempt_.clear();
   if (tangle.empty()) return;
@@ -178,26 +211,6 @@ void Candidates::exempt(const ContactMesh& mesh, const Tangle& tangle) {
       }
     });
   }
-}
-
-PartMotion motion_since(const ContactMesh& mesh, const Candidates& candidates, const std::vector<Vector3d>& x,
-                        const std::vector<Vector3d>* dx) {
-  PartMotion out;
-  out.point.resize(x.size());
-  out.edge.resize(mesh.n_cloth_edges);
-  out.triangle.resize(mesh.n_cloth_triangles);
-  const std::vector<Vector3d>& x0 = candidates.reference();
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    const double moved = (x[i] - x0[i]).norm() + (dx ? (*dx)[i].norm() : 0.0);
-    out.point[i] = static_cast<float>(moved * (1 + 1e-6) + 1e-12);
-  }
-  for (std::size_t e = 0; e < out.edge.size(); ++e)
-    out.edge[e] = std::max(out.point[mesh.edge[e][0]], out.point[mesh.edge[e][1]]);
-  for (std::size_t t = 0; t < out.triangle.size(); ++t) {
-    const Indices<3>& c = mesh.triangle[t];
-    out.triangle[t] = std::max({out.point[c[0]], out.point[c[1]], out.point[c[2]]});
-  }
-  return out;
 }
 
 }  // namespace garment::simulator

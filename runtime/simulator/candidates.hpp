@@ -33,10 +33,12 @@ class Candidates {
 
   /// True while no active contact can be missing: every particle within `slack()` of the reference.
   bool valid(const std::vector<Vector3d>& x) const;
+  /// True while cloth that the list leaves out cannot be nearer than `least` (m), at x nor, with `dx`, on the way from x to
+  /// x + dx: where parts have come near each other they have moved by less than radius() - least against each other since the
+  /// reference. Unlike `valid` it bears cloth that moves on together, however far. Bodies are not looked at.
+  bool complete(const ContactMesh& mesh, const std::vector<Vector3d>& x, const std::vector<Vector3d>* dx, double least) const;
   double slack() const { return slack_; }  ///< (radius - largest contact distance) / 2, m
-  double reach() const {
-    return reach_;
-  }  ///< no particle can leave the reference farther than this: truncate(), m
+  double reach() const { return reach_; }  ///< within it of the reference nothing meets what the list leaves out, m
   double radius() const { return radius_; }
 
   /// Takes the pairs that cut each other now out of contact and truncation, and puts all others back: the
@@ -58,12 +60,5 @@ class Candidates {
   double radius_ = 0, slack_ = 0, reach_ = 0;
   Bvh triangle_tree_, edge_tree_;  // of the cloth, at the reference
 };
-
-/// Upper bounds of how far each part of the cloth has come from the reference, m: |x - x0| (+ |dx| if given).
-struct PartMotion {
-  std::vector<float> point, edge, triangle;  ///< cloth only
-};
-PartMotion motion_since(const ContactMesh& mesh, const Candidates& candidates, const std::vector<Vector3d>& x,
-                        const std::vector<Vector3d>* dx = nullptr);
 
 }  // namespace garment::simulator

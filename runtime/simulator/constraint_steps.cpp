@@ -56,7 +56,6 @@ bool ConstraintSteps::move(MotionState& s, double h, TimeStep& report) {
     cloth_.put_back();
     return false;
   }
-  cloth_.went(1);
   report.unborne.assign(v_.size(), Vector3d::Zero());
   for (std::size_t i = 0; i < v_.size(); ++i) {
     report.unborne[i] = -reactive_.of_holds[i];

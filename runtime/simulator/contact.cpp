@@ -7,6 +7,7 @@
 #include "runtime/base/parallel.hpp"
 #include "runtime/base/portable_math.hpp"
 #include "runtime/simulator/closest_point.hpp"
+#include "runtime/simulator/relative_motion.hpp"
 
 namespace garment::simulator {
 namespace {
@@ -109,24 +110,18 @@ class Finder {
 void find(const ContactMesh& mesh, const Candidates& candidates, const std::vector<Vector3d>& x,
           const std::vector<float>* shares, const std::vector<Vector3d>* dx, std::vector<Contact>& out) {
   out.clear();
-  const PartMotion moved = motion_since(mesh, candidates, x, dx);
+  const RelativeMotion moved(candidates.reference(), x, dx);
   const std::vector<Pair>& pairs = candidates.pairs();
   for (std::size_t k = 0; k < kPairKinds; ++k) {
     const auto kind = static_cast<PairKind>(k);
     const std::size_t first = candidates.begin(kind), n = candidates.end(kind) - first;
     std::vector<std::vector<Contact>> found((n + kGrain - 1) / kGrain);
-    // How far the parts of a pair have come, of the cloth only.
-    const float* of_a = kind == PairKind::body_v_cloth_t ? nullptr
-                        : is_vt(kind)                    ? moved.point.data()
-                                                         : moved.edge.data();
-    const float* of_b = kind == PairKind::cloth_v_body_t || kind == PairKind::cloth_e_body_e ? nullptr
-                        : is_vt(kind) ? moved.triangle.data()
-                                      : moved.edge.data();
     parallel_for(n, kGrain, [&](std::size_t begin, std::size_t end) {
       Finder finder(mesh, x, shares, dx, found[begin / kGrain]);
       for (std::size_t i = first + begin; i < first + end; ++i) {
         const Pair& pair = pairs[i];
-        const float motion = (of_a ? of_a[pair.a] : 0) + (of_b ? of_b[pair.b] : 0);
+        const float motion =
+            is_vt(kind) ? moved.of_point_and_triangle(mesh, pair.a, pair.b) : moved.of_edges(mesh, pair.a, pair.b);
         if (pair.distance - motion > pair.contact_distance || candidates.is_exempt(i)) continue;
         if (is_vt(kind))
           finder.vt(pair.a, pair.b, pair.contact_distance, static_cast<Index>(i));

@@ -66,7 +66,6 @@ TimeStep ExplicitSteps::step(MotionState& s, double h) {
     cloth_.put_back();
     return report;
   }
-  cloth_.went(1);
   report.unborne = cloth_.force();
   for (std::size_t i = 0; i < s.x.size(); ++i) {
     v_[i] = dx_[i] / h;

@@ -12,6 +12,7 @@ using Eigen::Vector3d;
 using Vectors = std::vector<Vector3d>;
 
 constexpr int kMostIterations = 30;
+constexpr int kMostSolves = 8;        // of a semi-implicit step
 constexpr int kHalvings = 8;
 constexpr double kLinearTolerance = 0.03;
 constexpr double kManyFresh = 0.1;    // share of what touches that does so for the first time
@@ -65,48 +66,59 @@ void ImplicitSteps::guess(const MotionState& s, double h) {
   const model::Model& m = cloth_.model();
   x_ = s.x;
   dx_.resize(s.x.size());
-  for (std::size_t i = 0; i < dx_.size(); ++i) dx_[i] = aim_[i] - s.x[i] + beta_ * beta_ * m.gravity;
+  for (std::size_t i = 0; i < dx_.size(); ++i)
+    dx_[i] = is_single() && !flies_ ? Vector3d::Zero() : Vector3d(aim_[i] - s.x[i] + beta_ * beta_ * m.gravity);
   cloth_.held_motion(s.x, h, dx_);
   cloth_.keep_apart(s.x, dx_);
-  cloth_.went(1);
   for (std::size_t i = 0; i < dx_.size(); ++i) x_[i] += dx_[i];
 }
 
-/// Goes along dx_ as far as the energy does not rise; false where it does however short the way.
-bool ImplicitSteps::search(double before, double h) {
+/// Goes along dx_ as far as the energy does not rise, and returns which share; 0 where it does however short the way.
+double ImplicitSteps::search(double before, double h) {
   trial_.resize(x_.size());
   double share = 1;
   for (int k = 0; k <= kHalvings; ++k, share *= 0.5) {
     for (std::size_t i = 0; i < x_.size(); ++i) trial_[i] = x_[i] + share * dx_[i];
     const double after = cloth_.energies(trial_, h).sum() + inertia(trial_);
     if (after > before + kRounding * std::abs(before) + 1e-16 || !std::isfinite(after)) continue;
-    cloth_.went(share);
     x_.swap(trial_);
-    return true;
+    return share;
   }
-  return false;
+  return 0;
+}
+
+/// Forces and what is left of the equations at x_.
+void ImplicitSteps::look(const MotionState& s, double h, bool with_matrix, TimeStep& report) {
+  const model::Model& m = cloth_.model();
+  energies_ = cloth_.assemble(x_, velocity(s, x_, h), h, s.time + h, with_matrix);
+  residual_ = cloth_.force();
+  for (std::size_t i = 0; i < x_.size(); ++i) residual_[i] -= m.mass[i] / (beta_ * beta_) * (x_[i] - aim_[i]);
+  report.unborne = residual_;
+  cloth_.holds().filter(residual_);
+  report.residual = rms(residual_) / std::max(cloth_.rms_weight(), 1e-300);
 }
 
 bool ImplicitSteps::solve(const MotionState& s, double h, TimeStep& report) {
   const model::Model& m = cloth_.model();
-  const double weight = std::max(cloth_.rms_weight(), 1e-300), time = s.time + h;
   double last = 1e300;
-  for (report.iterations = 0; report.iterations < kMostIterations; ++report.iterations) {
-    energies_ = cloth_.assemble(x_, velocity(s, x_, h), h, time, true);
-    residual_ = cloth_.force();
-    for (std::size_t i = 0; i < x_.size(); ++i) residual_[i] -= m.mass[i] / (beta_ * beta_) * (x_[i] - aim_[i]);
-    report.unborne = residual_;
-    cloth_.holds().filter(residual_);
-    report.residual = rms(residual_) / weight;
+  const int most = is_single() ? kMostSolves : kMostIterations;
+  for (report.iterations = 0; report.iterations < most; ++report.iterations) {
+    look(s, h, true, report);
     if (report.residual <= tolerance_) return true;
     if (!std::isfinite(report.residual)) return false;
     last = report.residual;
     for (std::size_t i = 0; i < x_.size(); ++i) cloth_.matrix().add_diagonal(i, m.mass[i] / (beta_ * beta_));
     cloth_.solve(residual_, kLinearTolerance, kLinearIterations, x_, dx_);
-    cloth_.keep_apart(x_, dx_);
-    if (!search(energies_.sum() + inertia(x_), h)) break;
+    const bool cut = cloth_.keep_apart(x_, dx_) > 0;
+    const double share = search(energies_.sum() + inertia(x_), h);
+    if (share == 0 || (is_single() && !cut && share == 1)) {
+      ++report.iterations;
+      break;
+    }
   }
-  return last <= kGoodEnough * tolerance_;
+  if (!is_single()) return last <= kGoodEnough * tolerance_;
+  look(s, h, false, report);
+  return std::isfinite(report.residual);
 }
 
 void ImplicitSteps::finish(MotionState& s, double h, TimeStep& report) {
@@ -132,7 +144,7 @@ void ImplicitSteps::finish(MotionState& s, double h, TimeStep& report) {
 TimeStep ImplicitSteps::step(MotionState& state, double h) {
   const bool goes_on = euler_steps_ == 0 && !state.x_before.empty() && std::abs(state.step_before - h) < 1e-9 * h;
   for (Scheme scheme : {Scheme::bdf2, Scheme::euler}) {
-    if (scheme == Scheme::bdf2 && !goes_on) continue;
+    if (scheme == Scheme::bdf2 && (!goes_on || is_single())) continue;
     TimeStep report;
     cloth_.go_to(state.time + h);
     cloth_.begin_step(state.x);
@@ -142,7 +154,8 @@ TimeStep ImplicitSteps::step(MotionState& state, double h) {
     const double fresh = solved ? cloth_.new_contacts(x_) : 0;
     const bool touches = fresh > 0;
     if (touches) euler_steps_ = kEulerSteps;
-    if (fresh > kManyFresh && scheme == Scheme::euler) {  // what lands rubs from its first step on
+    flies_ = report.iterations == 0;
+    if (fresh > kManyFresh && scheme == Scheme::euler && !is_single()) {  // what lands rubs from its first step on
       cloth_.rub(x_, state.x);
       solved = solve(state, h, report);
     }

@@ -13,8 +13,12 @@ namespace garment::simulator {
 /// lost to them. A step in which something comes to touch is made by implicit Euler: BDF2 would throw it back.
 class ImplicitSteps {
  public:
+  enum class Effort {
+    converged,  ///< Newton's method to the tolerance
+    one_solve,  ///< implicit Euler linearised once (semi-implicit, Baraff & Witkin 1998); again only where walls cut the step
+  };
   /// `tolerance`: of the residual, RMS over RMS weight.
-  ImplicitSteps(MovingCloth& cloth, double tolerance) : cloth_(cloth), tolerance_(tolerance) {}
+  ImplicitSteps(MovingCloth& cloth, double tolerance, Effort effort) : cloth_(cloth), tolerance_(tolerance), effort_(effort) {}
 
   TimeStep step(MotionState& state, double h);
   void keep(Archive& a);  ///< in a checkpoint
@@ -26,11 +30,15 @@ class ImplicitSteps {
   void guess(const MotionState& s, double h);
   double inertia(const std::vector<Eigen::Vector3d>& x) const;
   const std::vector<Eigen::Vector3d>& velocity(const MotionState& s, const std::vector<Eigen::Vector3d>& x, double h);
-  bool search(double before, double h);
+  double search(double before, double h);
+  void look(const MotionState& s, double h, bool with_matrix, TimeStep& report);
+  bool is_single() const { return effort_ == Effort::one_solve; }
   void finish(MotionState& s, double h, TimeStep& report);
 
   MovingCloth& cloth_;
   double tolerance_;
+  Effort effort_;
+  bool flies_ = true;  // nothing but its weight moved it in the last step
   Scheme scheme_ = Scheme::euler;
   int euler_steps_ = 0;  // still to come
   double beta_ = 0;

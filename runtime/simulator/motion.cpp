@@ -26,10 +26,11 @@ using Eigen::Vector3d;
 using Vectors = std::vector<Vector3d>;
 
 constexpr double kUsualStep = 1.0 / 240;   // s, of implicit steps
+constexpr double kSemiStep = 1.0 / 60;     // s, of semi-implicit ones
 constexpr double kShareOfBound = 0.9;      // of the stability bound, where no step is stated
 constexpr int kMostHalvings = 6;
 constexpr int kGrowAfter = 8;              // steps that go well, before one that was halved is doubled
-constexpr double kBodyStride = 0.75e-3;    // m, half the distance at which bodies begin to push
+constexpr double kBodyStride = 0.5;        // of the distance at which bodies begin to push
 constexpr double kOpen = 0.5;              // strain of seams that are still open
 constexpr double kSame = 1e-9;             // s
 constexpr double kSameShare = 1e-3;        // of a step
@@ -45,7 +46,8 @@ class Mover {
         report_(report),
         cloth_(model, bodies, settings.self_collision, state.time,
                settings.method == MotionMethod::dynamic_constraints ? MovingCloth::Acts::without_constraints : MovingCloth::Acts::all),
-        implicit_(cloth_, settings.tolerance),
+        implicit_(cloth_, settings.tolerance,
+                  settings.method == MotionMethod::semi_implicit ? ImplicitSteps::Effort::one_solve : ImplicitSteps::Effort::converged),
         explicit_(cloth_),
         constraints_(cloth_, model),
         begun_(state.time) {
@@ -83,7 +85,7 @@ class Mover {
   /// In a checkpoint between two steps.
   void keep(Archive& a) {
     const std::size_t n = model_.n_particles();
-    keep_positions(a, s_.x, n, kBodyStride);
+    keep_positions(a, s_.x, n, kSelfOffset);
     model::keep(a, s_.v, n);
     model::keep(a, s_.x_before, n, true);
     model::keep(a, s_.v_before, n, s_.x_before.empty());
@@ -109,7 +111,9 @@ class Mover {
   }
 
  private:
-  bool is_explicit() const { return settings_.method != MotionMethod::implicit; }
+  bool is_explicit() const {
+    return settings_.method == MotionMethod::explicit_steps || settings_.method == MotionMethod::dynamic_constraints;
+  }
 
   TimeStep one_step(double h) {
     if (settings_.method == MotionMethod::dynamic_constraints) return constraints_.step(s_, h);
@@ -127,7 +131,7 @@ class Mover {
 
   /// False, with a finding, where the stated step is too long.
   bool find_step() {
-    step_ = settings_.step > 0 ? settings_.step : kUsualStep;
+    step_ = settings_.step > 0 ? settings_.step : settings_.method == MotionMethod::semi_implicit ? kSemiStep : kUsualStep;
     if (!is_explicit()) return true;
     const double bound = explicit_.stable_step(s_.x);
     report_.motion.stable_step = bound;
@@ -164,7 +168,7 @@ class Mover {
   double next_step(double stop) const {
     double most = step_;
     const double speed = cloth_.body_speed(s_.x, s_.time, s_.time + most);
-    if (speed > 0) most = std::min(most, kBodyStride / speed);
+    if (speed > 0) most = std::min(most, kBodyStride * cloth_.push_distance() / speed);
     for (const model::Motion& motion : model_.motions)  // speed changes at poses
       for (const model::Pose& pose : motion.poses)
         if (pose.time > s_.time + kSameShare * step_) most = std::min(most, pose.time - s_.time);

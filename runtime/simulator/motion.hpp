@@ -9,6 +9,7 @@ namespace garment::simulator {
 
 enum class MotionMethod {
   implicit,        ///< BDF2, implicit Euler where contacts change
+  semi_implicit,   ///< implicit Euler, linearised once a step
   explicit_steps,  ///< symplectic Euler, below its stability bound
   dynamic_constraints,  ///< explicit, with reactive forces for holds and ties and impulses for contacts
   quasi_static,    ///< at rest at every moment: paths are followed slowly

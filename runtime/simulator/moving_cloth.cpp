@@ -44,13 +44,12 @@ MovingCloth::MovingCloth(const model::Model& model, const std::vector<body::Body
       matrix_(elastic_.make_matrix()),
       linear_(matrix_.pattern(), holds_),
       mesh_(model, no_bodies(), ContactOptions{self_collision, kSelfOffset, 0}),
+      candidates_(mesh_, mean_edge(model)),
       bodies_(moved_, bodies, mean_edge(model), {}),
       friction_(model.n_particles(), kFrictionGive, bodies_.stiffness()),
       cloth_friction_(model, Rubbing::all, kFrictionGive, kContactStiffness),
       loads_(moved_),
-      spacing_(mean_edge(model)),
       touching_(model.n_particles(), 0) {
-  recent_motion_ = spacing_ / 2;
   const double gravity = model.gravity.norm() > 0 ? model.gravity.norm() : kStandardGravity;
   double sum = 0;
   for (double m : model.mass) sum += m * m * gravity * gravity;
@@ -74,33 +73,36 @@ void MovingCloth::go_to(double time) {
     placements_[static_cast<std::size_t>(m.body)] = model::placement_at(m, time);
     any = true;
   }
-  if (any) bodies_.place(placements_, friction_);
+  if (!any) return;
+  bodies_.place(placements_, friction_);
+  looked_ = false;
 }
 
-/// x without the mean way of the cloth: candidates then last, however fast it falls.
-void MovingCloth::relative(const Vectors& x) {
-  relative_.resize(x.size());
-  for (std::size_t i = 0; i < x.size(); ++i) relative_[i] = x[i] - shift_;
+/// Finds what lies near what at x, unless that is known from the last time.
+void MovingCloth::look_around(const Vectors& x) {
+  if (looked_ && x == looked_at_) return;
+  looked_ = true;
+  looked_at_ = x;
+  candidates_.refresh(x);
+  bodies_.find(x);
+  weigh_contacts(x);
 }
 
-void MovingCloth::refresh_candidates(const Vectors& x) {
-  relative(x);
-  if (have_candidates_ && candidates_.valid(relative_)) return;
-  const double room = std::clamp(6 * recent_motion_, 0.15 * spacing_, 1.2 * spacing_);
-  candidates_.rebuild(mesh_, relative_, mesh_.largest_contact_distance + room);
-  have_candidates_ = true;
+/// Contacts of x, and what they weigh until the next look.
+void MovingCloth::weigh_contacts(const Vectors& x) {
+  active_contacts(mesh_, candidates_.list(), x, contacts_);
+  shares_.assign(candidates_.list().pairs().size(), 0.0F);
+  for (const Contact& c : contacts_) shares_[c.pair] = static_cast<float>(c.share);
 }
 
 void MovingCloth::begin_step(const Vectors& x, const Vectors* strained) {
   elastic_.follow(x);
   damping_.begin(strained ? *strained : x);
-  bodies_.find(x);
+  look_around(x);
   friction_.begin_step();
   bodies_.add_normal_forces(x, friction_);
   friction_.freeze(x);
-  refresh_candidates(x);
-  active_contacts(mesh_, candidates_, relative_, contacts_);
-  cloth_friction_.begin(mesh_, candidates_, contacts_, kContactStiffness);
+  cloth_friction_.begin(mesh_, candidates_.list(), contacts_, kContactStiffness);
 }
 
 double MovingCloth::weight_energy(const Vectors& x) const {
@@ -119,11 +121,7 @@ double MovingCloth::contact_energy_sum(const std::vector<Contact>& contacts) con
 
 Energies MovingCloth::assemble(const Vectors& x, const Vectors& v, double h, double time, bool with_matrix) {
   Energies e;
-  refresh_candidates(x);
-  bodies_.find(x);
-  active_contacts(mesh_, candidates_, relative_, contacts_);
-  shares_.assign(candidates_.pairs().size(), 0.0F);
-  for (const Contact& c : contacts_) shares_[c.pair] = static_cast<float>(c.share);
+  look_around(x);
   if (!with_matrix) {
     matrix_.clear_added();
     e.stored = elastic_.energy_and_force(x, force_);
@@ -155,8 +153,7 @@ Energies MovingCloth::energies(const Vectors& x, double h) {
   e.dissipation = damping_.potential(x, h);
   e.dead_loads = loads_.energy(x);
   if (!constrained_) return e;
-  relative(x);
-  active_contacts(mesh_, candidates_, relative_, trial_contacts_, &shares_);
+  active_contacts(mesh_, candidates_.list(), x, trial_contacts_, &shares_);
   e.stored += contact_energy_sum(trial_contacts_) + bodies_.energy(x) + friction_.energy(x) + cloth_friction_.energy(x);
   return e;
 }
@@ -175,44 +172,17 @@ std::size_t MovingCloth::stop_at_bodies(const Vectors& x, Vectors& dx) {
 }
 
 std::size_t MovingCloth::keep_apart(const Vectors& x, Vectors& dx) {
-  std::size_t changed = stop_at_bodies(x, dx);
-  mean_.setZero();
-  if (!mesh_.options.self) return changed;
+  const std::size_t stopped = stop_at_bodies(x, dx);
+  if (!mesh_.options.self) return stopped;
   const Vectors wish = dx;
-  double mass = 0;
-  const bool flies = moved_.hold_particle.empty();  // what is held does not follow the others
-  for (std::size_t i = 0; flies && i < dx.size(); ++i) {
-    mean_ += moved_.mass[i] * dx[i];
-    mass += moved_.mass[i];
-  }
-  mean_ /= std::max(mass, 1e-300);
-  std::size_t cut = keep_layers_apart(x, dx);
-  // Cut back beside the mean way, a particle goes that way: into a body that had stopped it.
-  if (mean_.squaredNorm() > 0 && cut > 0 && stop_at_bodies(x, dx) > 0) {
+  TruncateStats cut = truncate(mesh_, candidates_.list(), x, dx);
+  if (cut.out_of_reach > 0) {  // the list is too old or too short for so wide a step
+    candidates_.renew(x);
+    weigh_contacts(x);
     dx = wish;
-    mean_.setZero();
-    cut = keep_layers_apart(x, dx);
+    cut = truncate(mesh_, candidates_.list(), x, dx);
   }
-  return changed + cut;
-}
-
-std::size_t MovingCloth::keep_layers_apart(const Vectors& x, Vectors& dx) {
-  relative_dx_.resize(dx.size());
-  double largest = 0;
-  for (std::size_t i = 0; i < dx.size(); ++i) {
-    relative_dx_[i] = dx[i] - mean_;
-    largest = std::max(largest, relative_dx_[i].norm());
-  }
-  recent_motion_ = std::max(largest, 0.7 * recent_motion_);
-  relative(x);
-  const TruncateStats cut = truncate(mesh_, candidates_, relative_, relative_dx_);
-  if (cut.out_of_reach > 0) {
-    recent_motion_ = std::min(2 * recent_motion_, spacing_ / 2);
-    have_candidates_ = false;
-  }
-  if (cut.limited > 0 || cut.out_of_reach > 0)
-    for (std::size_t i = 0; i < dx.size(); ++i) dx[i] = relative_dx_[i] + mean_;
-  return cut.limited;
+  return stopped + cut.limited;
 }
 
 void MovingCloth::held_motion(const Vectors& x, double h, Vectors& dx) const {

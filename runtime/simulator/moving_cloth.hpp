@@ -8,13 +8,13 @@
 #include "runtime/model/model.hpp"
 #include "runtime/model/motion.hpp"
 #include "runtime/simulator/body_contact.hpp"
-#include "runtime/simulator/candidates.hpp"
 #include "runtime/simulator/cloth_friction.hpp"
 #include "runtime/simulator/contact.hpp"
 #include "runtime/simulator/contact_mesh.hpp"
 #include "runtime/simulator/elastic.hpp"
 #include "runtime/simulator/friction.hpp"
 #include "runtime/simulator/kelvin_damping.hpp"
+#include "runtime/simulator/kept_candidates.hpp"
 #include "runtime/simulator/linear_solver.hpp"
 #include "runtime/simulator/loads.hpp"
 
@@ -63,13 +63,13 @@ class MovingCloth {
     return linear_.solve(matrix_, contact_stiffness_, b, tolerance, iterations, dx, &x);
   }
 
-  /// Cuts dx back so that x + t dx starts no intersection of cloth with cloth, in the frame of the cloth's mean motion, and no
-  /// particle passes a body. Returns how many particles it changed.
+  /// Cuts dx back so that x + t dx starts no intersection of cloth with cloth and no particle passes a body. Returns how many particles it changed.
   std::size_t keep_apart(const std::vector<Eigen::Vector3d>& x, std::vector<Eigen::Vector3d>& dx);
-  /// Tells that the cloth went this share of what `keep_apart` left.
-  void went(double share) { shift_ += share * mean_; }
   /// The cloth is put back to where it was before: what lies near what is to be found again.
-  void put_back() { have_candidates_ = false; }
+  void put_back() {
+    candidates_.forget();
+    looked_ = false;
+  }
   /// How far each held particle goes in a step that begins at x: with its hold, and what it is off by at 1 m/s at most.
   void held_motion(const std::vector<Eigen::Vector3d>& x, double h, std::vector<Eigen::Vector3d>& dx) const;
 
@@ -93,14 +93,16 @@ class MovingCloth {
 
   /// Speed of the fastest part of a body near the cloth at x, between two times, m/s (0: none moves).
   double body_speed(const std::vector<Eigen::Vector3d>& x, double from, double to) const;
+  /// Least distance at which bodies begin to push a particle, m.
+  double push_distance() const { return bodies_.least_distance(); }
   /// Bound on the stiffness that contacts may add to one particle, N/m.
   double largest_contact_stiffness() const;
   /// In a checkpoint between two steps, at `time`, s.
   void keep(Archive& a, double time);
 
  private:
-  void refresh_candidates(const std::vector<Eigen::Vector3d>& x);
-  void relative(const std::vector<Eigen::Vector3d>& x);
+  void weigh_contacts(const std::vector<Eigen::Vector3d>& x);
+  void look_around(const std::vector<Eigen::Vector3d>& x);
   double contact_energy_sum(const std::vector<Contact>& contacts) const;
   double weight_energy(const std::vector<Eigen::Vector3d>& x) const;
 
@@ -116,23 +118,21 @@ class MovingCloth {
   BlockMatrix matrix_;
   LinearSolver linear_;
   ContactMesh mesh_;
-  Candidates candidates_;
+  KeptCandidates candidates_;
   BodyContact bodies_;
   BodyFriction friction_;
   ClothFriction cloth_friction_;
   Loads loads_;
-  bool have_candidates_ = false;
   std::size_t stop_at_bodies(const std::vector<Eigen::Vector3d>& x, std::vector<Eigen::Vector3d>& dx);
-  std::size_t keep_layers_apart(const std::vector<Eigen::Vector3d>& x, std::vector<Eigen::Vector3d>& dx);
-  double spacing_ = 0.01, recent_motion_ = 0.005, rms_weight_ = 0;
-  Eigen::Vector3d shift_{0, 0, 0};           // mean way of the cloth so far
-  Eigen::Vector3d mean_{0, 0, 0};            // and that of the displacement at hand
+  bool looked_ = false;                      // what lies near looked_at_ is known
+  std::vector<Eigen::Vector3d> looked_at_;
+  double rms_weight_ = 0;
   std::vector<Contact> contacts_, trial_contacts_;
   std::vector<float> shares_;
   std::vector<ContactStiffness> contact_stiffness_;
   std::vector<model::Placement> placements_, last_placements_;
   std::vector<char> touching_, touched_;
-  std::vector<Eigen::Vector3d> force_, relative_, relative_dx_;
+  std::vector<Eigen::Vector3d> force_;
 };
 
 }  // namespace garment::simulator

@@ -47,15 +47,15 @@ Relaxation::Relaxation(const model::Model& model, const std::vector<body::Body>&
       matrix_(elastic_.make_matrix()),
       linear_(matrix_.pattern(), holds_),
       mesh_(model, no_bodies(), ContactOptions{settings.self_collision, settings.self_offset, 0}),
+      candidates_(mesh_, mean_edge(model)),
       bodies_(model, bodies, mean_edge(model), settings.body),
       friction_(model.n_particles(), settings.friction_give, bodies_.stiffness()),
       cloth_friction_(model, Rubbing::stated, settings.friction_give, settings.contact_stiffness),
-      loads_(model) {
-  spacing_ = mean_edge(model);
+      loads_(model),
+      spacing_(mean_edge(model)) {
   turns_.assign(model.n_particles(), 0);
   damping_.assign(model.n_particles(), 0);
   last_motion_.assign(model.n_particles(), Vector3d::Zero());
-  recent_motion_ = spacing_ / 2;
   // Without weight rest is measured by the weight that the cloth would have.
   const double gravity = model.gravity.norm() > 0 ? model.gravity.squaredNorm() : kStandardGravity * kStandardGravity;
   double sum = 0;
@@ -65,28 +65,27 @@ Relaxation::Relaxation(const model::Model& model, const std::vector<body::Body>&
 
 void Relaxation::set_tangle(Tangle tangle) {
   tangle_ = std::move(tangle);
-  if (have_candidates_) candidates_.exempt(mesh_, tangle_);
+  if (candidates_.known()) candidates_.list().exempt(mesh_, tangle_);
 }
 
 void Relaxation::refresh_candidates(const Vectors& x) {
-  if (have_candidates_ && candidates_.valid(x)) return;
-  // Far enough for some steps of the present size, near enough to keep the list short.
-  double room = std::clamp(6 * recent_motion_, 0.15 * spacing_, 1.2 * spacing_);
-  candidates_.rebuild(mesh_, x, mesh_.largest_contact_distance + room);
-  have_candidates_ = true;
-  if (!tangle_.empty()) {
-    tangle_ = find_tangle(mesh_, no_bodies(), x);
-    candidates_.exempt(mesh_, tangle_);
-  }
+  if (candidates_.refresh(x)) exempt_tangle(x);
+}
+
+/// What is tangled at x stays out of a new list.
+void Relaxation::exempt_tangle(const Vectors& x) {
+  if (tangle_.empty()) return;
+  tangle_ = find_tangle(mesh_, no_bodies(), x);
+  candidates_.list().exempt(mesh_, tangle_);
 }
 
 void Relaxation::find_contacts(const Vectors& x, std::vector<Contact>& contacts) const {
-  active_contacts(mesh_, candidates_, x, contacts);
+  active_contacts(mesh_, candidates_.list(), x, contacts);
 }
 
 /// What the contacts of x weigh holds for the whole step.
 void Relaxation::keep_shares() {
-  shares_.assign(candidates_.pairs().size(), 0.0F);
+  shares_.assign(candidates_.list().pairs().size(), 0.0F);
   for (const Contact& c : contacts_) shares_[c.pair] = static_cast<float>(c.share);
 }
 
@@ -112,7 +111,7 @@ double Relaxation::gravity_energy(const Vectors& x) const {
 double Relaxation::energy(const Vectors& x) const { return elastic_.energy(x) + gravity_energy(x); }
 
 double Relaxation::total_energy(const Vectors& x, std::vector<Contact>& contacts) const {
-  active_contacts(mesh_, candidates_, x, contacts, &shares_);
+  active_contacts(mesh_, candidates_.list(), x, contacts, &shares_);
   return energy(x) + loads_.energy(x, settings_.gravity_scale) + contact_energy_sum(contacts) + bodies_.energy(x) +
          friction_.energy(x) + cloth_friction_.energy(x);
 }
@@ -146,7 +145,7 @@ double Relaxation::residual(const Vectors& x, Vectors& force) {
   add_external_forces(x, force);
   collect_normal_forces(x);
   add_contact_forces(contacts_, settings_.contact_stiffness, force, nullptr, stiffness_);
-  cloth_friction_.begin(mesh_, candidates_, contacts_, settings_.contact_stiffness);
+  cloth_friction_.begin(mesh_, candidates_.list(), contacts_, settings_.contact_stiffness);
   cloth_friction_.add_force(x, force, nullptr, nullptr);
   reactions_ = simulator::reactions(model_, holds_, force);
   return residual_of(force);
@@ -192,7 +191,7 @@ double Relaxation::assemble(const Vectors& x, StepReport& report) {
   loads_.add_stiffness(matrix_, settings_.gravity_scale);
   collect_normal_forces(x);
   add_contact_forces(contacts_, settings_.contact_stiffness, force_, &matrix_, stiffness_);
-  cloth_friction_.begin(mesh_, candidates_, contacts_, settings_.contact_stiffness);
+  cloth_friction_.begin(mesh_, candidates_.list(), contacts_, settings_.contact_stiffness);
   cloth_friction_.add_force(x, force_, &matrix_, &stiffness_);
   net_ = force_;
   report.residual = residual_of(net_);
@@ -220,7 +219,7 @@ void Relaxation::solve_step(const Vectors& x, StepReport& report) {
 
 /// Counts contacts of cloth with cloth that the step would close as acting already; returns how many.
 std::size_t Relaxation::foresee_contacts(const Vectors& x) {
-  coming_contacts(mesh_, candidates_, x, dx_, coming_);
+  coming_contacts(mesh_, candidates_.list(), x, dx_, coming_);
   const double stiffness = settings_.contact_stiffness;
   for (const Contact& c : coming_) {
     const double room = c.distance - c.contact_distance;
@@ -253,7 +252,14 @@ TruncateStats Relaxation::keep_apart(const Vectors& x) {
   if (stride > spacing_)  // farther than a cell the linear picture of the folds says nothing
     for (Vector3d& d : dx_) d *= spacing_ / stride;
   whole_ = dx_;
-  return truncate(mesh_, candidates_, x, dx_);
+  TruncateStats cut = truncate(mesh_, candidates_.list(), x, dx_);
+  if (cut.out_of_reach == 0) return cut;
+  candidates_.renew(x);  // the list is too old or too short for so wide a step
+  exempt_tangle(x);
+  find_contacts(x, contacts_);
+  keep_shares();
+  dx_ = whole_;
+  return truncate(mesh_, candidates_.list(), x, dx_);
 }
 
 /// Goes along dx_ to trial_, as far as the energy does not rise (unless driven); returns the energy there.
@@ -303,7 +309,7 @@ StepReport Relaxation::step(Vectors& x) {
   // Cutting single particles back turns the step, perhaps uphill. The whole step made shorter does not turn.
   for (double share = 0.5; !report.accepted && cut.limited > 0 && share > kLeastStep; share *= 0.5) {
     for (std::size_t i = 0; i < x.size(); ++i) dx_[i] = share * whole_[i];
-    if (truncate(mesh_, candidates_, x, dx_).limited > 0) continue;
+    if (truncate(mesh_, candidates_.list(), x, dx_).limited > 0) continue;
     report.scale = 1;
     after = search(x, before, driven, report);
     break;
@@ -315,11 +321,6 @@ StepReport Relaxation::step(Vectors& x) {
     return report;
   }
   report.largest_motion = report.scale * largest(dx_);
-  recent_motion_ = std::max(report.largest_motion, 0.7 * recent_motion_);
-  if (cut.out_of_reach > 0) {
-    recent_motion_ = std::min(2 * recent_motion_, spacing_ / 2);
-    have_candidates_ = false;
-  }
   damp(x, trial_);
   bodies_.next_step();
   x.swap(trial_);

@@ -8,13 +8,13 @@
 #include "runtime/body/body.hpp"
 #include "runtime/model/model.hpp"
 #include "runtime/simulator/body_contact.hpp"
-#include "runtime/simulator/candidates.hpp"
 #include "runtime/simulator/cloth_contact.hpp"
 #include "runtime/simulator/cloth_friction.hpp"
 #include "runtime/simulator/contact.hpp"
 #include "runtime/simulator/contact_mesh.hpp"
 #include "runtime/simulator/elastic.hpp"
 #include "runtime/simulator/friction.hpp"
+#include "runtime/simulator/kept_candidates.hpp"
 #include "runtime/simulator/linear_solver.hpp"
 #include "runtime/simulator/loads.hpp"
 #include "runtime/simulator/truncate.hpp"
@@ -84,6 +84,7 @@ class Relaxation {
 
  private:
   void refresh_candidates(const std::vector<Eigen::Vector3d>& x);
+  void exempt_tangle(const std::vector<Eigen::Vector3d>& x);
   void find_contacts(const std::vector<Eigen::Vector3d>& x, std::vector<Contact>& contacts) const;
   void keep_shares();
   double contact_energy_sum(const std::vector<Contact>& contacts) const;
@@ -109,16 +110,14 @@ class Relaxation {
   BlockMatrix matrix_;
   LinearSolver linear_;
   ContactMesh mesh_;
-  Candidates candidates_;
+  KeptCandidates candidates_;
   BodyContact bodies_;
   BodyFriction friction_;
   ClothFriction cloth_friction_;
   Loads loads_;
   std::vector<Eigen::Vector3d> reactions_;
   Tangle tangle_;
-  bool have_candidates_ = false;
   double spacing_ = 0.01;             // mean edge length, m
-  double recent_motion_ = 0.005;      // m, how far particles move in a step these days
   double time_step_ = 1.0 / 60;
   double rms_weight_ = 0;
   std::vector<Contact> contacts_, trial_contacts_, coming_;

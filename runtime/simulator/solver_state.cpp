@@ -17,7 +17,7 @@ using Vectors = std::vector<Vector3d>;
 
 constexpr double kFarthest = 1e6;      // m
 constexpr double kMostCrowded = 1000;  // particles in one place, in the mean over the particles
-constexpr double kMostRoom = 4;        // spacings that any list of pairs reaches beyond contact
+constexpr double kFarthestRoom = 4;    // spacings that any list of pairs reaches beyond contact
 
 /// How many particles share a cube of this size with a particle, in the mean.
 double crowd(const Vectors& x, double size) {
@@ -40,20 +40,6 @@ void keep_positions(Archive& a, Vectors& x, std::size_t n, double reach) {
   if (!a.reading() || !a.ok()) return;
   for (const Vector3d& p : x) a.demand(p.cwiseAbs().maxCoeff() <= kFarthest);
   if (a.ok()) a.demand(crowd(x, std::max(reach, 1e-4)) <= kMostCrowded);
-}
-
-void keep_candidates(Archive& a, Candidates& candidates, bool& have, const ContactMesh& mesh, double largest_room) {
-  a.keep(have);
-  if (!have || !a.ok()) return;
-  Vectors reference = candidates.reference();
-  double radius = candidates.radius();
-  const double most = mesh.largest_contact_distance + largest_room;
-  a.keep(radius);
-  a.demand(radius >= 0 && radius <= most * (1 + 1e-9));
-  keep_positions(a, reference, static_cast<std::size_t>(mesh.n_particles), radius);
-  if (!a.reading()) return;
-  have = a.ok();
-  if (have) candidates.rebuild(mesh, reference, radius);
 }
 
 void keep(Archive& a, Tangle& tangle, const ContactMesh& mesh) {
@@ -85,6 +71,25 @@ void keep(Archive& a, DrapeReport& report, std::size_t n_holders) {
     a.keep_any(*value);
 }
 
+// ---- what is near
+
+/// The list is found again from the positions at which it was found.
+void KeptCandidates::keep(Archive& a) {
+  a.keep(known_);
+  a.keep(served_);
+  a.keep(room_);
+  a.demand(served_ >= 0 && served_ <= kMostCounted && room_ > 0 && room_ <= kFarthestRoom * spacing_);
+  if (!known_ || !a.ok()) return;
+  Vectors reference = candidates_.reference();
+  double radius = candidates_.radius();
+  a.keep(radius);
+  a.demand(radius >= 0 && radius <= (mesh_.largest_contact_distance + kFarthestRoom * spacing_) * (1 + 1e-9));
+  keep_positions(a, reference, static_cast<std::size_t>(mesh_.n_particles), radius);
+  if (!a.reading()) return;
+  known_ = a.ok();
+  if (known_) candidates_.rebuild(mesh_, reference, radius);
+}
+
 // ---- particles and bodies
 
 void BodyContact::keep(Archive& a) {
@@ -109,11 +114,13 @@ void BodyContact::keep(Archive& a) {
     a.keep(m.push.body);
     a.demand(m.push.body >= -1 && m.push.body < bodies);
   }
-  // Of the pushes only who has them: bodies that move carry the anchors of these.
   if (!a.length(pushes_, sizeof(std::size_t))) return;
   for (Push& p : pushes_) {
     if (a.reading()) p = {0, Vector3d::Zero(), 0, 0, 0};
     a.keep(p.particle);
+    model::keep(a, p.normal);
+    for (double* v : {&p.plane, &p.offset, &p.friction}) a.keep(*v);
+    a.keep(p.foreseen);
     a.keep(p.body);
     a.demand(p.particle < n && p.body >= -1 && p.body < bodies);
   }
@@ -168,8 +175,8 @@ void LinearSolver::keep(Archive& a) { preconditioner_.keep(a); }
 void Relaxation::keep(Archive& a) {
   const std::size_t n = model_.n_particles();
   double tensile_scale = elastic_.tensile_scale();
-  for (double* value : {&settings_.gravity_scale, &tensile_scale, &recent_motion_, &time_step_}) a.keep(*value);
-  a.demand(tensile_scale > 0 && tensile_scale <= 1 && time_step_ > 1e-6 && time_step_ < 1e3 && recent_motion_ >= 0);
+  for (double* value : {&settings_.gravity_scale, &tensile_scale, &time_step_}) a.keep(*value);
+  a.demand(tensile_scale > 0 && tensile_scale <= 1 && time_step_ > 1e-6 && time_step_ < 1e3);
   model::keep(a, damping_, n);
   model::keep(a, turns_, n);
   for (const int turns : turns_) a.demand(turns >= 0 && turns < kMostCounted);
@@ -179,10 +186,10 @@ void Relaxation::keep(Archive& a) {
   friction_.keep(a);
   cloth_friction_.keep(a);
   linear_.keep(a);
-  keep_candidates(a, candidates_, have_candidates_, mesh_, kMostRoom * spacing_);
+  candidates_.keep(a);
   if (!a.reading() || !a.ok()) return;
   elastic_.set_tensile_scale(tensile_scale);
-  if (have_candidates_) candidates_.exempt(mesh_, tangle_);
+  if (candidates_.known()) candidates_.list().exempt(mesh_, tangle_);
 }
 
 void MovingCloth::keep(Archive& a, double time) {
@@ -191,20 +198,22 @@ void MovingCloth::keep(Archive& a, double time) {
     last_placements_ = placements_;
     last_holds_ = moved_.hold_point;
   }
-  a.keep(recent_motion_);
-  a.demand(recent_motion_ >= 0);
-  model::keep(a, shift_);
-  model::keep(a, mean_);
   if (a.length(touching_, 1)) a.numbers(touching_.data(), touching_.size());
   a.demand(touching_.size() == moved_.n_particles());
   bodies_.keep(a);
   friction_.keep(a);
   cloth_friction_.keep(a);
   linear_.keep(a);
-  keep_candidates(a, candidates_, have_candidates_, mesh_, kMostRoom * spacing_);
+  candidates_.keep(a);
+  a.keep(looked_);
+  if (!looked_) return;
+  keep_positions(a, looked_at_, moved_.n_particles(), kSelfOffset);
+  looked_ = looked_ && a.ok();
+  if (a.reading() && looked_) weigh_contacts(looked_at_);
 }
 
 void ImplicitSteps::keep(Archive& a) {
+  a.keep(flies_);
   a.keep(euler_steps_);
   a.demand(euler_steps_ >= 0 && euler_steps_ <= kMostCounted);
 }

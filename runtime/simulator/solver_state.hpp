@@ -5,7 +5,6 @@
 
 #include "runtime/base/archive.hpp"
 #include "runtime/model/model.hpp"
-#include "runtime/simulator/candidates.hpp"
 #include "runtime/simulator/drape.hpp"
 #include "runtime/simulator/untangle.hpp"
 
@@ -19,9 +18,6 @@ double number_or_infinite(double value);
 /// Positions of `n` particles, within 1,000 km; refuses what no cloth is: more particles in places of the size `reach` (m) than the
 /// lists of pairs could bear.
 void keep_positions(Archive& a, std::vector<model::Vector3d>& x, std::size_t n, double reach);
-
-/// The candidates are found again from the positions at which they were found; `have` says whether there are any.
-void keep_candidates(Archive& a, Candidates& candidates, bool& have, const ContactMesh& mesh, double largest_room);
 
 void keep(Archive& a, Tangle& tangle, const ContactMesh& mesh);
 

@@ -7,6 +7,7 @@
 
 #include "runtime/base/parallel.hpp"
 #include "runtime/simulator/closest_point.hpp"
+#include "runtime/simulator/relative_motion.hpp"
 
 namespace garment::simulator {
 namespace {
@@ -17,6 +18,7 @@ constexpr double kLeastGap = 1e-8;  // m: gaps below do not close further; far a
 constexpr double kLeastRoom = 0.1;  // share of a gap that each side has at least
 constexpr int kRounds = 8;          // after which a wall that leaves a particle behind stands
 constexpr int kMostRounds = 40;      // after which all do
+constexpr int kSearches = 4;        // for pairs that the cut ones may meet, before walls stand between all that may ever meet
 constexpr int kSweeps = 4;          // over the walls of a particle before its displacement shrinks as a whole
 
 /// A plane between two parts, in its two sides. It moves along its normal n by `motion` during the step, and a particle i of
@@ -145,41 +147,60 @@ class WallFinder {
   std::vector<Wall>& out_;
 };
 
-std::vector<Wall> find_walls(const ContactMesh& mesh, const Candidates& candidates, const std::vector<Vector3d>& x,
-                             const std::vector<Vector3d>& dx, double fraction) {
-  const PartMotion moved = motion_since(mesh, candidates, x, &dx);
-  std::vector<float> length(dx.size());
-  for (std::size_t i = 0; i < dx.size(); ++i) length[i] = static_cast<float>(dx[i].norm() * (1 + 1e-6));
+/// Lengths of displacements, rounded up, m.
+std::vector<float> lengths(const std::vector<Vector3d>& dx) {
+  std::vector<float> out(dx.size());
+  for (std::size_t i = 0; i < dx.size(); ++i) out[i] = static_cast<float>(dx[i].norm() * (1 + 1e-6));
+  return out;
+}
+
+/// How far the parts of a pair go towards each other at most, whatever shortens the way of the one or the other.
+float summed_length(const ContactMesh& mesh, const Pair& pair, PairKind kind, const std::vector<float>& length) {
+  auto longest = [&](const auto& points) {
+    float most = 0;
+    for (Index p : points)
+      if (!mesh.is_body(p)) most = std::max(most, length[p]);
+    return most;
+  };
+  if (is_vt(kind)) return longest(Indices<1>{pair.a}) + longest(mesh.triangle[pair.b]);
+  return longest(mesh.edge[pair.a]) + longest(mesh.edge[pair.b]);
+}
+
+/// Walls between the pairs without one that dx may bring together, or with `length` those that any ways no longer than these
+/// may. Marks these pairs in `walled`.
+std::size_t add_walls(const ContactMesh& mesh, const Candidates& candidates, const std::vector<Vector3d>& x,
+                      const std::vector<Vector3d>& dx, bool however_cut, double fraction, std::vector<char>& walled,
+                      std::vector<Wall>& walls) {
+  const RelativeMotion moved(candidates.reference(), x, however_cut ? nullptr : &dx);
+  const std::vector<float> length = lengths(dx);
   const std::vector<Pair>& pairs = candidates.pairs();
   std::vector<std::vector<Wall>> found;
+  std::vector<std::size_t> fresh;
   for (std::size_t k = 0; k < kPairKinds; ++k) {
     const auto kind = static_cast<PairKind>(k);
-    const std::size_t first = candidates.begin(kind), n = candidates.end(kind) - first;
-    const std::size_t before = found.size();
+    const std::size_t first = candidates.begin(kind), n = candidates.end(kind) - first, before = found.size();
     found.resize(before + (n + kGrain - 1) / kGrain);
-    const float* of_a = kind == PairKind::body_v_cloth_t ? nullptr
-                        : is_vt(kind)                    ? moved.point.data()
-                                                         : moved.edge.data();
-    const float* of_b = kind == PairKind::cloth_v_body_t || kind == PairKind::cloth_e_body_e ? nullptr
-                        : is_vt(kind) ? moved.triangle.data()
-                                      : moved.edge.data();
+    fresh.resize(found.size(), 0);
     parallel_for(n, kGrain, [&](std::size_t begin, std::size_t end) {
-      WallFinder finder(mesh, x, dx, length, fraction, found[before + begin / kGrain]);
+      const std::size_t chunk = before + begin / kGrain;
+      WallFinder finder(mesh, x, dx, length, fraction, found[chunk]);
       for (std::size_t i = first + begin; i < first + end; ++i) {
         const Pair& pair = pairs[i];
-        const float motion = (of_a ? of_a[pair.a] : 0) + (of_b ? of_b[pair.b] : 0);
+        if (walled[i]) continue;
+        float motion = is_vt(kind) ? moved.of_point_and_triangle(mesh, pair.a, pair.b) : moved.of_edges(mesh, pair.a, pair.b);
+        if (however_cut) motion += summed_length(mesh, pair, kind, length);
         // Parts whose motion cannot bring them together need no wall.
         if (pair.distance - motion > static_cast<float>(kLeastGap) || candidates.is_exempt(i)) continue;
+        walled[i] = 1;
+        ++fresh[chunk];
         is_vt(kind) ? finder.vt(pair.a, pair.b) : finder.ee(pair.a, pair.b);
       }
     });
   }
-  std::vector<Wall> walls;
-  std::size_t total = 0;
-  for (const auto& chunk : found) total += chunk.size();
-  walls.reserve(total);
   for (const auto& chunk : found) walls.insert(walls.end(), chunk.begin(), chunk.end());
-  return walls;
+  std::size_t sum = 0;
+  for (std::size_t n : fresh) sum += n;
+  return sum;
 }
 
 /// The largest s in [0, 1] with |u + s d| <= reach; 0 when u lies outside already and d leads no way back.
@@ -216,8 +237,9 @@ struct Sides {
 /// Displacements between walls that move with them.
 class Passage {
  public:
-  Passage(std::vector<Wall> walls, const std::vector<Vector3d>& x, const Candidates& candidates, std::vector<Vector3d>& dx)
-      : walls_(std::move(walls)), sides_(walls_, dx.size()), x_(x), candidates_(candidates), dx_(dx) {}
+  /// With `reach`, displacements stay within it of the candidates' reference.
+  Passage(std::vector<Wall> walls, const std::vector<Vector3d>& x, const Candidates* reach, std::vector<Vector3d>& dx)
+      : walls_(std::move(walls)), sides_(walls_, dx.size()), x_(x), reach_(reach), dx_(dx) {}
 
   /// Cuts what goes beyond the walls. A particle cut back no longer goes on before the walls behind it: those slow down, and
   /// what follows them is cut in its turn, round by round; walls that find no speed stand in the end.
@@ -276,7 +298,7 @@ class Passage {
         all_kept = false;
       }
     }
-    double share = share_within(x_[i] - candidates_.reference()[i], d, candidates_.reach());
+    double share = reach_ ? share_within(x_[i] - reach_->reference()[i], d, reach_->reach()) : 1;
     for (Index s = sides_.begin[i]; !all_kept && s < sides_.begin[i + 1]; ++s) {
       const auto [wall, k] = sides_.side[s];
       const Wall& w = walls_[wall];
@@ -289,30 +311,53 @@ class Passage {
   std::vector<Wall> walls_;
   Sides sides_;
   const std::vector<Vector3d>& x_;
-  const Candidates& candidates_;
+  const Candidates* reach_;
   std::vector<Vector3d>& dx_;
 };
+
+/// Shortens what would leave the candidates' reach, where all stay who have moved less; else all stop. Returns how many.
+std::size_t stay_within_reach(const Candidates& candidates, const std::vector<Vector3d>& x, std::vector<Vector3d>& dx) {
+  const std::vector<Vector3d>& x0 = candidates.reference();
+  std::vector<double> share(dx.size());
+  bool all_in = true;
+  std::size_t out = 0;
+  for (std::size_t i = 0; i < dx.size(); ++i) {
+    share[i] = share_within(x[i] - x0[i], dx[i], candidates.reach());
+    all_in = all_in && (x[i] - x0[i]).norm() <= candidates.reach() * (1 + 1e-9);
+    if (share[i] < 1) ++out;
+  }
+  for (std::size_t i = 0; i < dx.size(); ++i) dx[i] *= all_in ? share[i] : 0;
+  return out;
+}
 
 }  // namespace
 
 TruncateStats truncate(const ContactMesh& mesh, const Candidates& candidates, const std::vector<Vector3d>& x,
                        std::vector<Vector3d>& dx, const TruncateOptions& options) {
-  const std::vector<Vector3d>& x0 = candidates.reference();
   const std::vector<Vector3d> wish = dx;
   TruncateStats stats;
-  for (std::size_t i = 0; i < dx.size(); ++i) {
-    if (!(dx[i].norm() < 1e300)) {  // what is not finite does not move
-      dx[i].setZero();
-      continue;
-    }
-    const double share = share_within(x[i] - x0[i], dx[i], candidates.reach());
-    if (share < 1) {
-      dx[i] *= share;
-      ++stats.out_of_reach;
+  for (Vector3d& d : dx)
+    if (!(d.norm() < 1e300)) d.setZero();  // what is not finite does not move
+  std::vector<Wall> walls;
+  std::vector<char> walled(candidates.pairs().size(), 0);
+  bool within_reach = false;
+  if (!mesh.body_point.empty() || !candidates.complete(mesh, x, &dx, kLeastGap)) {
+    stats.out_of_reach = stay_within_reach(candidates, x, dx);
+    within_reach = true;
+  }
+  bool shortened = false;  // since the walls were last looked at
+  for (int search = 0;; ++search) {
+    if (add_walls(mesh, candidates, x, dx, search >= kSearches, options.fraction, walled, walls) > 0 || shortened) {
+      Passage passage(walls, x, within_reach ? &candidates : nullptr, dx);
+      stats.walls += passage.go(options.fraction);
+      shortened = false;
+    } else if (!within_reach && search > 0 && !candidates.complete(mesh, x, &dx, kLeastGap)) {
+      stats.out_of_reach = stay_within_reach(candidates, x, dx);
+      within_reach = shortened = true;
+    } else {
+      break;
     }
   }
-  Passage passage(find_walls(mesh, candidates, x, dx, options.fraction), x, candidates, dx);
-  stats.walls = passage.go(options.fraction);
   for (std::size_t i = 0; i < dx.size(); ++i) {
     const double cut = (wish[i] - dx[i]).norm();
     if (cut != 0) ++stats.limited;

@@ -26,10 +26,12 @@ struct TruncateStats {
 /// `fraction`; the gap is shared by how far each side comes (a side has at least a tenth). What would go farther is taken off
 /// along the wall's normal, motion along the wall stays. Where several walls do not agree, the whole displacement of the
 /// particle shrinks. A particle that was cut back does not go on before the walls behind it any more: those slow down, in
-/// rounds, and stand in the end. Pairs that are not listed are safe because no particle goes farther than
+/// rounds, and stand in the end. Walls stand
+/// where the displacements may bring parts together, and, where cutting changed that, between the parts that may now meet.
+/// Pairs that are not listed are safe while the candidates are complete; where they are not, no particle goes farther than
 /// `candidates.reach()` from the reference. Gaps below 1e-8 m do not close further. The length of no
-/// displacement grows. Precondition: every x lies within reach of the reference (always so when x moved by
-/// truncated displacements only). Source: Chen et al. 2025, Offset geometric contact, 3.4, with moving planes
+/// displacement grows. Precondition: x moved from the reference by
+/// truncated displacements only. Source: Chen et al. 2025, Offset geometric contact, 3.4, with moving planes
 /// instead of balls.
 TruncateStats truncate(const ContactMesh& mesh, const Candidates& candidates, const std::vector<Vector3d>& x,
                        std::vector<Vector3d>& dx, const TruncateOptions& options = {});

@@ -57,6 +57,39 @@ TEST_CASE("moved: cloth in free flight follows the parabola of the integrator") 
     CHECK((by_parts.state.position[i] - m.start[i] - n * tiny * v0 - tiny * tiny * n * (n + 1) / 2 * g).norm() < 1e-11);
 }
 
+TEST_CASE("moved: a semi-implicit step is one solution of the linearised implicit Euler step") {
+  test::SheetSpec spec;
+  spec.nx = spec.ny = 6;
+  model::Model m = test::make_sheet(spec);
+  const double h = 1.0 / 60;
+  // In free flight it is implicit Euler: after n steps h^2 n (n + 1) / 2 g.
+  const Moved flight = move(m, lasting(0.5, h, MotionMethod::semi_implicit));
+  REQUIRE(flight.report.status == simulator::DrapeStatus::ran);
+  const double n = flight.report.motion.steps;
+  CHECK(n == 30);
+  for (std::size_t i = 0; i < m.n_particles(); ++i)
+    CHECK((flight.state.position[i] - m.start[i] - h * h * n * (n + 1) / 2 * m.gravity).norm() < 1e-8);
+  // Held at one side it swings and hangs: in the end where the converged method hangs, by one solution a step.
+  for (int k = 0; k < spec.ny; ++k) {
+    m.hold_particle.push_back(k);
+    m.hold_kind.push_back(model::HoldKind::point);
+    m.hold_point.push_back(m.start[k]);
+    m.hold_normal.push_back(Vector3d(0, 1, 0));
+  }
+  simulator::MotionSettings settings = lasting(6, h, MotionMethod::semi_implicit);
+  settings.tolerance = 5e-3;
+  const Moved hung = move(m, settings);
+  REQUIRE(hung.report.status == simulator::DrapeStatus::ran);
+  CHECK(hung.report.motion.iterations < 1.5 * hung.report.motion.steps);
+  simulator::MotionSettings whole = lasting(6, h);
+  whole.tolerance = 5e-3;
+  const Moved exact = move(m, whole);
+  REQUIRE(exact.report.status == simulator::DrapeStatus::ran);
+  CHECK((mean(hung.state.position) - mean(exact.state.position)).norm() < 2e-3);
+  const auto& balance = hung.report.motion.balance;
+  CHECK(balance.change() < 0);  // it hangs lower, and the steps win nothing
+}
+
 TEST_CASE("moved: a bead on a rigid link swings with the period of a pendulum") {
   const double length = 0.5, angle = kPi / 3;
   model::Model m = bead(0.1, length);

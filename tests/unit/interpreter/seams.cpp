@@ -281,6 +281,11 @@ TEST_CASE("placements") {
          Eigen::Vector3d(1, 0, 0))
             .norm() < 1e-15);
   CHECK(Trial(head + "place a around form.arm.left\n").result.garment.panels[0].placement.part == "arm.left");
+  const Trial shape(kUse + "body can = cylinder(radius: 10 cm, height: 50 cm)\n" + box("a", "20 cm", "30 cm") + "place a around can\n");
+  CHECK(shape.result.ok());
+  CHECK(shape.result.garment.panels[0].placement.body == "can");
+  CHECK(shape.result.garment.panels[0].placement.part.empty());
+  refuses(head + "place a around «form»\n", "G0306", "a plain shape");
   const Trial inside(kUse + kForm +
                      box("a", "20 cm", "30 cm", "  place on form.back with top at form.waist\n"));
   CHECK(inside.result.ok());
