@@ -73,7 +73,7 @@ bool readable(const std::string& what) { return what.starts_with("parameter") ||
 
 }  // namespace
 
-Identity identity_of(const Project& project, const ProjectOptions& options, const model::Model& model, int max_steps) {
+Identity identity_of(const Project& project, const ProjectOptions& project_options, const model::Model& model, const Identity& options) {
   Identity out{{"the program", program_id()}};
   for (std::size_t i = 0; i < project.sources.size(); ++i) {
     const grammar::Source& s = project.sources[static_cast<grammar::SourceId>(i)];
@@ -82,8 +82,8 @@ Identity identity_of(const Project& project, const ProjectOptions& options, cons
     out.emplace_back(i == project.source ? "the script" : fmt::format("`{}`", name), sha256(s.text));
   }
   for (const interpreter::Parameter& p : project.result.parameters) out.emplace_back(fmt::format("parameter `{}`", p.name), p.value);
-  if (options.study) out.emplace_back(fmt::format("`{}` of the study", options.study->target), options.study->value);
-  out.emplace_back("`--max-steps`", max_steps > 0 ? std::to_string(max_steps) : "left out");
+  if (const auto& study = project_options.study) out.emplace_back(fmt::format("`{}` of the study", study->target), study->value);
+  out.insert(out.end(), options.begin(), options.end());
   out.emplace_back("what is draped", drapes_of(project));
   for (std::size_t b = 0; b < project.result.bodies.size(); ++b)
     out.emplace_back(fmt::format("the body `{}`", project.result.bodies[b].name), body_hash(project.result.bodies[b]));

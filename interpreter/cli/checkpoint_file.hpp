@@ -14,8 +14,8 @@ namespace garment::cli {
 /// All that a state depends on: what it is, and how it reads ("parameter `long`", "60 cm"). The order is that of telling.
 using Identity = std::vector<std::pair<std::string, std::string>>;
 
-/// Of a run: program, script, library, parameters, bodies, model, `--max-steps`.
-Identity identity_of(const Project& project, const ProjectOptions& options, const model::Model& model, int max_steps);
+/// Of a run: program, script, library, parameters, bodies, model, and those of the program's `options` that the drape depends on.
+Identity identity_of(const Project& project, const ProjectOptions& project_options, const model::Model& model, const Identity& options);
 
 /// How `now` differs from what was written, for a message; empty: not at all.
 std::string difference(const Identity& written, const Identity& now);

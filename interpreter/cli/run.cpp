@@ -215,6 +215,12 @@ struct Run {
   }
 };
 
+/// Options that a drape depends on; threads, pictures and papers are none.
+Identity options_of_drapes(const RunOptions& options) {
+  return {{"`--max-steps`", options.max_steps > 0 ? std::to_string(options.max_steps) : "left out"},
+          {"`--no-self-collision`", options.self_collision ? "left out" : "given"}};
+}
+
 void perform(Run& run) {
   const std::vector<interpreter::Act>& acts = run.project.result.acts;
   for (; run.at < acts.size(); ++run.at) {
@@ -259,7 +265,7 @@ ExitCode run_script(const RunOptions& options, results::Report& report, bool& re
   under_way.state.velocity.assign(model->n_particles(), Eigen::Vector3d::Zero());
   for (const interpreter::MeasureValue& m : project.result.measures) under_way.keep_measure(m);
   std::string kept;
-  if (!checkpoints.begin(identity_of(project, options.project, *model, options.max_steps), kept)) return kInputOutput;
+  if (!checkpoints.begin(identity_of(project, options.project, *model, options_of_drapes(options)), kept)) return kInputOutput;
   if (is_ended_round(kept)) {
     ExitCode code = kOk;
     reported = read_ended_round(kept, code, report);

@@ -91,6 +91,13 @@ class Placer {
   }
 
  private:
+  /// `place front start folded`: where it lies comes from its seams.
+  bool only_how_it_begins() {
+    for (const char* word : {"at", "flat", "turn", "with", "offset"})
+      if (clauses_.find(word) != nullptr) return false;
+    return clauses_.find("start") != nullptr;
+  }
+
   static constexpr const char* kWhole = "";
 
   /// A part of a body, or a whole plain shape.
@@ -98,13 +105,6 @@ class Placer {
     const Value value = eval(program_, expr, scope);
     if (const auto* body = value.as<BodyValue>(); body != nullptr && is_plain(program_, body->body, expr.span)) return {body->body, kWhole};
     return eval_body_place(program_, expr, scope, "`around` takes a part of a body, or a plain shape");
-  }
-
-  /// `place front start folded`: where it lies comes from its seams.
-  bool only_how_it_begins() {
-    for (const char* word : {"at", "flat", "turn", "with", "offset"})
-      if (clauses_.find(word) != nullptr) return false;
-    return clauses_.find("start") != nullptr;
   }
 
   void wrap(const BoundClause& clause, design::Placement::Kind kind) {

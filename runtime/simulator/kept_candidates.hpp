@@ -23,7 +23,7 @@ class KeptCandidates {
   /// The next refresh makes a new one.
   void forget() { known_ = false; }
   bool known() const { return known_; }
-  void keep(Archive& a);  ///< in a checkpoint: the list is found again from the positions at which it was found
+  void keep(Archive& a);  ///< in a checkpoint; what is exempt is not kept
 
  private:
   void rebuild(const std::vector<Vector3d>& x);

@@ -31,7 +31,6 @@ constexpr double kShareOfBound = 0.9;      // of the stability bound, where no s
 constexpr int kMostHalvings = 6;
 constexpr int kGrowAfter = 8;              // steps that go well, before one that was halved is doubled
 constexpr double kBodyStride = 0.5;        // of the distance at which bodies begin to push
-constexpr double kCrowd = 1e-3;            // m, in which a checkpoint may not have crowds of particles
 constexpr double kOpen = 0.5;              // strain of seams that are still open
 constexpr double kSame = 1e-9;             // s
 constexpr double kSameShare = 1e-3;        // of a step
@@ -86,7 +85,7 @@ class Mover {
   /// In a checkpoint between two steps.
   void keep(Archive& a) {
     const std::size_t n = model_.n_particles();
-    keep_positions(a, s_.x, n, kCrowd);
+    keep_positions(a, s_.x, n, kSelfOffset);
     model::keep(a, s_.v, n);
     model::keep(a, s_.x_before, n, true);
     model::keep(a, s_.v_before, n, s_.x_before.empty());

@@ -17,6 +17,7 @@ using Vectors = std::vector<Vector3d>;
 
 constexpr double kFarthest = 1e6;      // m
 constexpr double kMostCrowded = 1000;  // particles in one place, in the mean over the particles
+constexpr double kFarthestRoom = 4;    // spacings that any list of pairs reaches beyond contact
 
 /// How many particles share a cube of this size with a particle, in the mean.
 double crowd(const Vectors& x, double size) {
@@ -39,22 +40,6 @@ void keep_positions(Archive& a, Vectors& x, std::size_t n, double reach) {
   if (!a.reading() || !a.ok()) return;
   for (const Vector3d& p : x) a.demand(p.cwiseAbs().maxCoeff() <= kFarthest);
   if (a.ok()) a.demand(crowd(x, std::max(reach, 1e-4)) <= kMostCrowded);
-}
-
-void KeptCandidates::keep(Archive& a) {
-  a.keep(known_);
-  a.keep(room_);
-  a.keep(served_);
-  a.demand(room_ > 0 && room_ <= spacing_ && served_ >= 0 && served_ < kMostCounted);
-  if (!known_ || !a.ok()) return;
-  Vectors reference = candidates_.reference();
-  double radius = candidates_.radius();
-  a.keep(radius);
-  a.demand(radius >= 0 && radius <= mesh_.largest_contact_distance + spacing_);
-  keep_positions(a, reference, static_cast<std::size_t>(mesh_.n_particles), radius);
-  if (!a.reading()) return;
-  known_ = a.ok();
-  if (known_) candidates_.rebuild(mesh_, reference, radius);
 }
 
 void keep(Archive& a, Tangle& tangle, const ContactMesh& mesh) {
@@ -86,20 +71,26 @@ void keep(Archive& a, DrapeReport& report, std::size_t n_holders) {
     a.keep_any(*value);
 }
 
-// ---- particles and bodies
+// ---- what is near
 
-namespace {
-
-/// All of a push but whom it pushes.
-void keep_push(Archive& a, Push& push, int bodies) {
-  model::keep(a, push.normal);
-  for (double* value : {&push.plane, &push.offset, &push.friction}) a.keep(*value);
-  a.keep(push.foreseen);
-  a.keep(push.body);
-  a.demand(push.body >= -1 && push.body < bodies);
+/// The list is found again from the positions at which it was found.
+void KeptCandidates::keep(Archive& a) {
+  a.keep(known_);
+  a.keep(served_);
+  a.keep(room_);
+  a.demand(served_ >= 0 && served_ <= kMostCounted && room_ > 0 && room_ <= kFarthestRoom * spacing_);
+  if (!known_ || !a.ok()) return;
+  Vectors reference = candidates_.reference();
+  double radius = candidates_.radius();
+  a.keep(radius);
+  a.demand(radius >= 0 && radius <= (mesh_.largest_contact_distance + kFarthestRoom * spacing_) * (1 + 1e-9));
+  keep_positions(a, reference, static_cast<std::size_t>(mesh_.n_particles), radius);
+  if (!a.reading()) return;
+  known_ = a.ok();
+  if (known_) candidates_.rebuild(mesh_, reference, radius);
 }
 
-}  // namespace
+// ---- particles and bodies
 
 void BodyContact::keep(Archive& a) {
   const std::size_t n = model_.n_particles();
@@ -117,14 +108,21 @@ void BodyContact::keep(Archive& a) {
     a.keep(m.age);
     if (m.age < 0) continue;
     m.push.particle = i;
-    model::keep(a, m.at);
-    keep_push(a, m.push, bodies);
+    for (Vector3d* v : {&m.push.normal, &m.at}) model::keep(a, *v);
+    for (double* v : {&m.push.plane, &m.push.offset, &m.push.friction}) a.keep(*v);
+    a.keep(m.push.foreseen);
+    a.keep(m.push.body);
+    a.demand(m.push.body >= -1 && m.push.body < bodies);
   }
   if (!a.length(pushes_, sizeof(std::size_t))) return;
   for (Push& p : pushes_) {
+    if (a.reading()) p = {0, Vector3d::Zero(), 0, 0, 0};
     a.keep(p.particle);
-    a.demand(p.particle < n);
-    keep_push(a, p, bodies);
+    model::keep(a, p.normal);
+    for (double* v : {&p.plane, &p.offset, &p.friction}) a.keep(*v);
+    a.keep(p.foreseen);
+    a.keep(p.body);
+    a.demand(p.particle < n && p.body >= -1 && p.body < bodies);
   }
   if (!a.ok()) pushes_.clear();
 }
@@ -208,15 +206,15 @@ void MovingCloth::keep(Archive& a, double time) {
   linear_.keep(a);
   candidates_.keep(a);
   a.keep(looked_);
-  if (looked_) model::keep(a, looked_at_, moved_.n_particles());
-  if (!a.reading()) return;
+  if (!looked_) return;
+  keep_positions(a, looked_at_, moved_.n_particles(), kSelfOffset);
   looked_ = looked_ && a.ok();
-  if (looked_) weigh_contacts(looked_at_);
+  if (a.reading() && looked_) weigh_contacts(looked_at_);
 }
 
 void ImplicitSteps::keep(Archive& a) {
-  a.keep(euler_steps_);
   a.keep(flies_);
+  a.keep(euler_steps_);
   a.demand(euler_steps_ >= 0 && euler_steps_ <= kMostCounted);
 }
 

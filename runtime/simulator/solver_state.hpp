@@ -5,7 +5,6 @@
 
 #include "runtime/base/archive.hpp"
 #include "runtime/model/model.hpp"
-#include "runtime/simulator/candidates.hpp"
 #include "runtime/simulator/drape.hpp"
 #include "runtime/simulator/untangle.hpp"
 

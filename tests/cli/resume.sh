@@ -90,6 +90,9 @@ grep -q -- "--resume goes on" log.txt || fail "Ctrl-C does not say how to go on"
 goes_on -p long=15cm
 ok
 [ $code -eq 3 ] && grep -q "G0911" log.txt && grep -q 'parameter `long` (`15 cm`, then `14 cm`)' log.txt || fail "another parameter was not refused"
+goes_on --no-self-collision
+ok
+[ $code -eq 3 ] && grep -q "G0911.*no-self-collision" log.txt || fail "another option was not refused"
 cp -r slots changed_slots
 sed 's/0.1 s/0.12 s/' "$script" >all_acts.garment
 "$program" run all_acts.garment --no-pictures --resume -o slots >log.txt 2>&1
