@@ -11,7 +11,6 @@
 namespace garment::grammar {
 namespace {
 
-constexpr int kTabStop = 4;
 constexpr std::size_t kLongLine = 400;    // bytes; a longer line is shown as a window around its first label
 constexpr std::size_t kWindowLead = 100;  // bytes shown before that label
 

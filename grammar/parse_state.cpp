@@ -7,8 +7,6 @@
 namespace garment::grammar {
 namespace {
 
-constexpr int kTabStop = 4;
-
 bool joins_values(std::string_view word) {
   return word == "and" || word == "or" || word == "minus" || word == "is" || word == "with" ||
          word == "not" || word == "else";

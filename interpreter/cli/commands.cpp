@@ -25,8 +25,6 @@ bool read_script(const std::string& file, Host& host, grammar::Sources& sources,
   return true;
 }
 
-std::string plural(std::size_t n, const char* word) { return fmt::format("{} {}{}", n, word, n == 1 ? "" : "s"); }
-
 nlohmann::ordered_json measures(const interpreter::Interpretation& result) {
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   for (const interpreter::MeasureValue& m : result.measures) {

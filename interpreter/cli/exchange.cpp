@@ -12,12 +12,8 @@
 namespace garment::cli {
 namespace {
 
-constexpr std::uint64_t kMaxPatternBytes = 64u << 20;
+constexpr std::uint64_t kMaxImportBytes = 64u << 20;
 constexpr const char* kBody = "form";  // what imported scripts call their body
-
-std::string plural(std::size_t n, const char* word) {
-  return fmt::format("{} {}{}", n, word, n == 1 ? "" : "s");
-}
 
 void show_error(const char* code, std::string message, const char* help, Terminal& terminal) {
   show({plain_error(code, std::move(message), help)}, grammar::Sources{}, terminal);
@@ -34,7 +30,7 @@ ExitCode write(const std::string& out, const std::string& bytes, Host& host, Ter
 ExitCode read(const std::string& path, PatternFileOptions options, PatternFile& file, Host& host,
               Terminal& terminal) {
   const std::string ending = ending_of(path);
-  HostResult<std::string> text = host.read_file(path, kMaxPatternBytes);
+  HostResult<std::string> text = host.read_file(path, kMaxImportBytes);
   if (!text) {
     show_error("G0901", fmt::format("cannot read `{}`: {}", path, text.error.message), "check the path",
                terminal);

@@ -11,7 +11,7 @@
 namespace garment::cli {
 namespace {
 
-constexpr std::size_t kContext = 2, kMaxLines = 2000;
+constexpr std::size_t kLinesAround = 2, kMaxLines = 2000;
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
@@ -138,7 +138,7 @@ std::string told(const std::vector<Edit>& edits) {
   std::size_t last = 0;  // first line not told yet
   for (std::size_t k = 0; k < edits.size(); ++k) {
     if (edits[k].first == ' ') continue;
-    const std::size_t from = std::max(last, k < kContext ? 0 : k - kContext);
+    const std::size_t from = std::max(last, k < kLinesAround ? 0 : k - kLinesAround);
     if (from > last && last > 0) out += "  ...\n";
     for (std::size_t i = from; i < k; ++i) out += "    " + edits[i].second + "\n";
     std::vector<std::string> gone, come;
@@ -148,7 +148,7 @@ std::string told(const std::vector<Edit>& edits) {
     }
     if (gone.size() == come.size())
       for (std::size_t i = 0; i < gone.size(); ++i) out += changed_numbers(gone[i], come[i]);
-    last = std::min(edits.size(), k + kContext);
+    last = std::min(edits.size(), k + kLinesAround);
     for (std::size_t i = k; i < last; ++i) {
       if (edits[i].first != ' ') {
         last = i;

@@ -6,7 +6,7 @@
 namespace garment::cli {
 namespace {
 
-std::string cell(const std::string& text) {
+std::string table_cell(const std::string& text) {
   std::string out;
   for (char c : text) {
     if (c == '|') out += '\\';
@@ -26,7 +26,7 @@ std::string command_text(const CLI::App& command) {
     if (option->get_name(false, true) == "-h,--help" || option->get_group().empty()) continue;  // hidden ones have no group
     const std::string name =
         option->get_positional() ? option->get_single_name() : option->get_name(false, true);
-    rows += "| `" + cell(name) + "` | " + cell(option->get_description()) + " |\n";
+    rows += "| `" + table_cell(name) + "` | " + table_cell(option->get_description()) + " |\n";
   }
   std::string text = "### " + command.get_name() + "\n\n```\n" + call + "\n```\n\n";
   std::string doc = command.get_description();

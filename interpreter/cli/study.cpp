@@ -21,7 +21,7 @@ std::string file_word(const std::string& text) {
 }
 
 /// A cell of a table; quoted where it must be (RFC 4180).
-std::string cell(const std::string& text) {
+std::string csv_field(const std::string& text) {
   if (text.find_first_of(",\"\n") == std::string::npos) return text;
   std::string out = "\"";
   for (char c : text) out += c == '"' ? "\"\"" : std::string(1, c);
@@ -55,25 +55,25 @@ std::vector<results::MeasureOutcome> measures_of(const std::vector<Round>& round
 
 std::string table_of(const std::string& target, const std::vector<Round>& rounds) {
   const std::vector<std::string> questions = questions_of(rounds);
-  std::string table = cell(target) + ",status,particles,steps,largest_strain";
+  std::string table = csv_field(target) + ",status,particles,steps,largest_strain";
   const std::vector<results::MeasureOutcome> measures = measures_of(rounds);
-  for (const results::MeasureOutcome& m : measures) table += ',' + cell(m.unit.empty() ? m.name : m.name + " [" + m.unit + "]");
-  for (const std::string& question : questions) table += ',' + cell(question);
+  for (const results::MeasureOutcome& m : measures) table += ',' + csv_field(m.unit.empty() ? m.name : m.name + " [" + m.unit + "]");
+  for (const std::string& question : questions) table += ',' + csv_field(question);
   table += '\n';
   for (const Round& round : rounds) {
     const results::Report& r = round.report;
-    table += cell(round.value) + ',' + (r.particles == 0 ? "refused" : results::status_name(r.drape.status)) + ',' +
+    table += csv_field(round.value) + ',' + (r.particles == 0 ? "refused" : results::status_name(r.drape.status)) + ',' +
              std::to_string(r.particles) + ',' + std::to_string(r.drape.steps) + ',' +
              number_cell(r.strain.all.any.largest);
     for (std::size_t k = 0; k < measures.size(); ++k) {
       table += ',';
       if (k >= r.stated_measures.size()) continue;
-      table += r.stated_measures[k].value ? number_cell(*r.stated_measures[k].value) : cell(r.stated_measures[k].shown);
+      table += r.stated_measures[k].value ? number_cell(*r.stated_measures[k].value) : csv_field(r.stated_measures[k].shown);
     }
     for (std::size_t k = 0; k < questions.size(); ++k) {
       table += ',';
       if (k >= r.expects.size()) continue;
-      table += r.expects[k].value ? number_cell(*r.expects[k].value) : cell(r.expects[k].shown);
+      table += r.expects[k].value ? number_cell(*r.expects[k].value) : csv_field(r.expects[k].shown);
     }
     table += '\n';
   }

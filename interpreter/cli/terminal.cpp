@@ -106,4 +106,6 @@ std::string say_count(std::size_t n) {
   return digits;
 }
 
+std::string plural(std::size_t n, const char* word) { return fmt::format("{} {}{}", n, word, n == 1 ? "" : "s"); }
+
 }  // namespace garment::cli

@@ -51,5 +51,7 @@ class Terminal {
 std::string say_seconds(double seconds);
 /// 12345 as "12,345".
 std::string say_count(std::size_t n);
+/// "1 panel", "2 panels".
+std::string plural(std::size_t n, const char* word);
 
 }  // namespace garment::cli

@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kContext = 3, kWindow = 40;
 
 /// Lines with their ends.
-std::vector<std::string_view> lines_of(const std::string& text) {
+std::vector<std::string_view> lines_with_ends(const std::string& text) {
   std::vector<std::string_view> lines;
   for (std::size_t begin = 0; begin < text.size();) {
     const std::size_t end = std::min(text.find('\n', begin), text.size() - 1) + 1;
@@ -73,7 +73,7 @@ std::string range(std::size_t begin, std::size_t end) {
 
 std::string unified_diff(const std::string& before, const std::string& after, const std::string& name) {
   if (before == after) return "";
-  const std::vector<std::string_view> a = lines_of(before), b = lines_of(after);
+  const std::vector<std::string_view> a = lines_with_ends(before), b = lines_with_ends(after);
   const std::vector<Stretch> all = stretches_of(a, b);
   std::string out = fmt::format("--- {}\n+++ {}\n", name, name);
   for (std::size_t k = 0; k < all.size(); ++k) {

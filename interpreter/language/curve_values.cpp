@@ -11,9 +11,7 @@ namespace {
 using geometry::Curve;
 using geometry::Point2;
 
-constexpr double kMeets = 1e-5;           // m, ends this near each other are one point
-constexpr double kShortest = 1e-6;        // m
-constexpr double kFarthest = 100;         // m
+constexpr double kShortestCurve = 1e-6;    // m
 constexpr std::size_t kElementSteps = 50;  // of work with one element of a curve, about
 constexpr std::size_t kMaxElements = 100'000;
 constexpr std::size_t kCurveBytes = 600;  // of one element with its arc-length table, about
@@ -104,7 +102,7 @@ Curve eval_curve(Program& program, const Expr& expr, Scope& scope, const std::st
 
 Value curve_value(Program& program, Curve curve, Span span) {
   const double length = curve.length();
-  if (!(length >= kShortest))
+  if (!(length >= kShortestCurve))
     fail(program, Message("G0341", "the curve is " + format_quantity(length, kLength) + " long; it needs a length", span)
                       .help("its points must not fall together"));
   if (!(length <= 1e4 && curve.start().cwiseAbs().maxCoeff() <= kFarthest &&

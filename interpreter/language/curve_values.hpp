@@ -7,6 +7,9 @@
 
 namespace garment::interpreter {
 
+constexpr double kMeets = 1e-5;    // m, ends this near each other are one point
+constexpr double kFarthest = 100;  // m from the origin, of what is drawn
+
 /// The curve that a value stands for, in metres: a drafted curve, an edge, part of an edge, or a chain of edges of one
 /// panel, walked in the direction of the value (`-a` backwards). Nothing where the value is of another kind, or where
 /// the links of a chain do not meet.

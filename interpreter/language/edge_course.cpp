@@ -8,8 +8,6 @@
 namespace garment::interpreter {
 namespace {
 
-constexpr double kMeets = 1e-5;  // m
-
 geometry::Curve course_of(const Program& program, const EdgeSpan& span) {
   const design::Panel& panel = program.panels[static_cast<std::size_t>(span.panel)].panel;
   std::vector<geometry::Curve> links;

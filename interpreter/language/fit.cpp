@@ -13,20 +13,20 @@ namespace {
 
 using design::Point2;
 
-constexpr double kWindow = 0.03;  // m, how far up or down cloth may lie from where it is placed
-constexpr int kRows = 7;          // heights tried in the window
-constexpr double kLeast = 5e-3;   // m, a lack that is not worth a word
-constexpr double kFlat = 2e-3;    // m, of an outline's polyline
+constexpr double kWindow = 0.03;     // m, how far up or down cloth may lie from where it is placed
+constexpr int kRows = 7;             // heights tried in the window
+constexpr double kLeastLack = 5e-3;  // m, a lack that is not worth a word
+constexpr double kFlat = 2e-3;       // m, of an outline's polyline
 constexpr const char* kLevels[] = {"bust", "underbust", "waist", "hip"};
 
 /// Where an outline crosses a height: the edge, and how far along it.
-struct Crossing {
+struct HeightCrossing {
   int edge = -1;
   double at = 0, x = 0;
 };
 
-std::vector<Crossing> crossings(const design::Panel& panel, double y) {
-  std::vector<Crossing> found;
+std::vector<HeightCrossing> crossings(const design::Panel& panel, double y) {
+  std::vector<HeightCrossing> found;
   for (std::size_t e = 0; e < panel.edges.size(); ++e) {
     const auto& curve = panel.edges[e].curve;
     const double length = curve.length();
@@ -39,7 +39,7 @@ std::vector<Crossing> crossings(const design::Panel& panel, double y) {
       found.push_back({static_cast<int>(e), s + share * (t - s), a.x() + share * (b.x() - a.x())});
     }
   }
-  std::sort(found.begin(), found.end(), [](const Crossing& a, const Crossing& b) { return a.x < b.x; });
+  std::sort(found.begin(), found.end(), [](const HeightCrossing& a, const HeightCrossing& b) { return a.x < b.x; });
   return found;
 }
 
@@ -71,9 +71,9 @@ double mean_height(const design::Panel& panel, const std::string& name) {
   return length > 0 ? sum / length : 0;
 }
 
-class Ring {
+class BodyRing {
  public:
-  Ring(Program& program, int body) : program_(program), body_(body) {}
+  BodyRing(Program& program, int body) : program_(program), body_(body) {}
 
   struct Level {
     const char* name;
@@ -97,7 +97,7 @@ class Ring {
       if (panels.empty()) continue;
       done.insert(panels.begin(), panels.end());
       const double most = widest * (1 + stretch);
-      if (most >= level.girth - kLeast) continue;
+      if (most >= level.girth - kLeastLack) continue;
       tell(level, panels, widest, stretch);
     }
   }
@@ -122,7 +122,7 @@ class Ring {
   }
 
   /// The panel and edge that the point of an edge is sewn to.
-  std::optional<std::pair<int, int>> partner(int p, const Crossing& at) const {
+  std::optional<std::pair<int, int>> partner(int p, const HeightCrossing& at) const {
     for (const SeamInfo& info : program_.seams) {
       if (!info.ready) continue;
       for (std::size_t s = 0; s < info.seam.sides.size(); ++s)
@@ -145,9 +145,9 @@ class Ring {
     int at = start, entered = -1;
     for (std::size_t k = 0; k <= program_.panels.size(); ++k) {
       if (!is_placed(at)) break;
-      const std::vector<Crossing> cut = crossings(panel(at), own_y(at, height));
+      const std::vector<HeightCrossing> cut = crossings(panel(at), own_y(at, height));
       if (cut.size() != 2 || cut[0].edge == cut[1].edge) break;
-      const Crossing& leave = entered < 0 || cut[0].edge == entered ? cut[1] : cut[0];
+      const HeightCrossing& leave = entered < 0 || cut[0].edge == entered ? cut[1] : cut[0];
       if (entered >= 0 && cut[0].edge != entered && cut[1].edge != entered) break;
       const double own = cut[1].x - cut[0].x - taken_by_darts(panel(at), own_y(at, height));
       width += own;
@@ -204,8 +204,8 @@ class Ring {
 void check_fit(Program& program) {
   for (std::size_t b = 0; b < program.garment.bodies.size(); ++b) {
     const auto frame = program.frames.find(static_cast<int>(b));
-    Ring ring(program, static_cast<int>(b));
-    std::vector<Ring::Level> levels;
+    BodyRing ring(program, static_cast<int>(b));
+    std::vector<BodyRing::Level> levels;
     auto add = [&](const std::string& name, std::optional<double> height, std::optional<double> girth) {
       if (!height) return;
       ring.heights_[name] = *height;
@@ -217,7 +217,7 @@ void check_fit(Program& program) {
     } else if (program.built[b] != nullptr) {
       for (const auto& [name, level] : program.built[b]->levels) add(name, level.height, level.girth);
     }
-    for (const Ring::Level& level : levels) ring.judge(level);
+    for (const BodyRing::Level& level : levels) ring.judge(level);
   }
 }
 

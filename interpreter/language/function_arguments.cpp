@@ -1,5 +1,7 @@
 #include "interpreter/language/function_arguments.hpp"
 
+#include <cmath>
+
 #include "interpreter/language/curve_values.hpp"
 
 namespace garment::interpreter::detail {
@@ -82,6 +84,18 @@ const ListBody& list_at(Call& call, std::size_t k) {
 
 double position_at(Call& call, std::size_t k, const geometry::Curve& curve) {
   return position_along(call.program, call.arguments[k], curve.length(), place(call, k), what(call, k));
+}
+
+const DrapeMeasures& drape_of(Call& call) {
+  if (call.program.drape != nullptr) return *call.program.drape;
+  fail(call.program, Message("G0325", called(call) + " is known only after a drape", call.expr.span)
+                         .help("ask it in `expect` or `measure`"));
+}
+
+Value finite(Call& call, Quantity q) {
+  if (!std::isfinite(q.value))
+    fail(call.program, Message("G0319", called(call) + " has no finite value here", call.expr.span));
+  return Value{q};
 }
 
 Value plane_point(const design::Point2& p, int panel) { return Value{PointValue{{p.x(), p.y(), 0}, 2, kLength, panel}}; }

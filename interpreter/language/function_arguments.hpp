@@ -1,5 +1,6 @@
 #pragma once
-// Reading the arguments of a builtin: each with its kind, else a report and Stop.
+// Reading the arguments of a builtin: each with its kind, else a report and Stop; and what several of them
+// answer alike.
 #include <string>
 
 #include "interpreter/language/evaluate.hpp"
@@ -26,6 +27,11 @@ const ListBody& list_at(Call& call, std::size_t k);
 /// A position along `curve`: a length or a fraction.
 double position_at(Call& call, std::size_t k, const geometry::Curve& curve);
 
+/// What the drape measured; reports where there is no drape yet.
+const DrapeMeasures& drape_of(Call& call);
+
+/// The value; reports where it is not finite.
+Value finite(Call& call, Quantity q);
 Value plane_point(const design::Point2& p, int panel = -1);
 
 }  // namespace garment::interpreter::detail

@@ -86,7 +86,7 @@ Value run_foot(Call& call) {
   return plane_point(foot);
 }
 
-std::string listed(const std::vector<geometry::Crossing>& found) {
+std::string listed_crossings(const std::vector<geometry::Crossing>& found) {
   std::string text;
   for (std::size_t k = 0; k < found.size() && k < 4; ++k)
     text += (k > 0 ? ", " : "") + show(plane_point(found[k].point));
@@ -150,11 +150,11 @@ Value run_intersection(Call& call) {
                                  "`which` is " + format_quantity(q.value, q.dimension) + "; the curves meet in " +
                                      std::to_string(found.size()) + (found.size() == 1 ? " point" : " points"),
                                  place(call, 2))
-                             .help("along the first curve they are " + listed(found)));
+                             .help("along the first curve they are " + listed_crossings(found)));
     return plane_point(found[static_cast<std::size_t>(q.value) - 1].point);
   }
   if (found.size() > 1)
-    fail(call.program, Message("G0347", "the two curves meet in " + std::to_string(found.size()) + " points: " + listed(found),
+    fail(call.program, Message("G0347", "the two curves meet in " + std::to_string(found.size()) + " points: " + listed_crossings(found),
                                call.expr.span)
                            .help("say which, along the first curve: `which: 1`; or near what: `near: (x, y)`; all of them "
                                  "are `intersections(a, b)`"));

@@ -12,14 +12,14 @@ namespace {
 using design::Point2;
 using geometry::Curve;
 
-constexpr double kSame = 1e-6;  // m, points this near each other are one
+constexpr double kOnePoint = 1e-6;  // m, points this near each other are one
 constexpr std::size_t kMaxPoints = 100'000;
 constexpr std::size_t kPointBytes = 1000;  // of a spline's point, its cubic and their arc-length table, about
 
 /// Both ends of a curve being drafted, which must not fall together.
 std::pair<Point2, Point2> ends(Call& call) {
   const Point2 p = point_at(call, 0), q = point_at(call, 1);
-  if ((q - p).norm() < kSame)
+  if ((q - p).norm() < kOnePoint)
     fail(call.program, Message("G0341", called(call) + " from " + show(plane_point(p)) + " to the same point", call.expr.span)
                            .help("its two ends must differ"));
   return {p, q};
@@ -42,7 +42,7 @@ Value run_spline(Call& call, const Point2& p, const Point2& q, std::size_t k) {
   Point2 last = p;
   for (std::size_t i = 0; i <= points.size(); ++i) {
     const Point2 next = i < points.size() ? points[i] : q;
-    if ((next - last).norm() < kSame)
+    if ((next - last).norm() < kOnePoint)
       fail(call.program, Message("G0341", "two points of the curve fall together at " + show(plane_point(next)),
                                  place(call, k))
                              .help("leave one of them out; the ends are points of the curve already"));
@@ -93,7 +93,7 @@ double bulge_through(Call& call, const Point2& p, const Point2& q, const Point2&
   const double half = (q - p).norm() / 2;
   const Point2 t = (q - p) / (2 * half), left(-t.y(), t.x()), d = at - (p + q) / 2;
   const double x = d.dot(t), y = d.dot(left);
-  if (std::fabs(y) < kSame)
+  if (std::fabs(y) < kOnePoint)
     fail(call.program, Message("G0341", "the three points of the arc lie on a line", place(call, 4))
                            .help("a straight one is `line(P, Q)`"));
   const double center = (x * x + y * y - half * half) / (2 * y), radius = std::sqrt(half * half + center * center);

@@ -1,16 +1,8 @@
 // Questions of drape and pull tests to a finished drape.
-#include "interpreter/language/evaluate.hpp"
-#include "interpreter/language/function_table.hpp"
+#include "interpreter/language/function_arguments.hpp"
 
 namespace garment::interpreter::detail {
 namespace {
-
-const DrapeMeasures& drape_of(Call& call) {
-  if (call.program.drape != nullptr) return *call.program.drape;
-  fail(call.program,
-       Message("G0325", "`" + std::string(call.record.name) + "` is known only after a drape", call.expr.span)
-           .help("ask it in `expect` or `measure`"));
-}
 
 int panel_of(Call& call) {
   if (const auto* panel = call.arguments[0].as<PanelValue>()) return panel->panel;

@@ -28,13 +28,6 @@ Value run_area(Call& call) {
   return number_value(sum, kArea);
 }
 
-const DrapeMeasures& drape_of(Call& call) {
-  if (call.program.drape != nullptr) return *call.program.drape;
-  fail(call.program,
-       Message("G0325", "`" + std::string(call.record.name) + "` is known only after a drape", call.expr.span)
-           .help("ask it in `expect` or `measure`"));
-}
-
 /// Panel name, or empty for the whole garment.
 std::string panel_name(Call& call) {
   if (!call.given(0) || call.arguments[0].as<AllValue>() != nullptr) return "";

@@ -12,13 +12,6 @@ Quantity wanted(Call& call, std::size_t k, Dimension dimension) {
                      "`" + std::string(call.record.name) + "`");
 }
 
-Value finite(Call& call, Quantity q) {
-  if (!std::isfinite(q.value))
-    fail(call.program, Message("G0319", "`" + std::string(call.record.name) + "` has no finite value here",
-                               call.expr.span));
-  return Value{q};
-}
-
 Value extreme(Call& call, bool largest) {
   const auto* list = call.arguments.size() == 1 ? call.arguments[0].as<ListValue>() : nullptr;
   const std::vector<Value>& values = list != nullptr ? static_cast<const std::vector<Value>&>(**list) : call.arguments;

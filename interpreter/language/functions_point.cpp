@@ -12,7 +12,7 @@ namespace {
 using design::Point2;
 using geometry::Curve;
 
-constexpr double kSame = 1e-9;  // m
+constexpr double kCoincident = 1e-9;  // m
 
 const PointValue& any_point(Call& call, std::size_t k) {
   const auto* p = call.arguments[k].as<PointValue>();
@@ -46,12 +46,6 @@ double apart(const PointValue& p, const PointValue& q) {
   double sum = 0;
   for (std::size_t k = 0; k < 3; ++k) sum += (p.at[k] - q.at[k]) * (p.at[k] - q.at[k]);
   return std::sqrt(sum);
-}
-
-Value finite(Call& call, Quantity q) {
-  if (!std::isfinite(q.value))
-    fail(call.program, Message("G0319", called(call) + " has no finite value here", call.expr.span));
-  return Value{q};
 }
 
 Value run_distance(Call& call) {
@@ -93,7 +87,7 @@ Value run_toward(Call& call) {
 
 /// Direction of a vector; refuses one without length.
 double direction_of(Call& call, const Point2& way, const std::string& what) {
-  if (way.norm() < kSame)
+  if (way.norm() < kCoincident)
     fail(call.program, Message("G0342", what + " fall together: there is no direction", call.expr.span)
                            .help("give points that differ"));
   return portable::atan2(way.y(), way.x());
@@ -149,7 +143,7 @@ std::pair<Point2, Point2> axis(Call& call) {
 
 Value run_mirror(Call& call) {
   const auto [p, q] = axis(call);
-  if ((q - p).norm() < kSame)
+  if ((q - p).norm() < kCoincident)
     fail(call.program, Message("G0342", "the two points of the axis fall together", call.expr.span)
                            .help("give points that differ"));
   const Point2 t = (q - p).normalized();

@@ -8,7 +8,7 @@
 namespace garment::interpreter {
 namespace {
 
-using Kind = design::Press::Kind;
+using PressKind = design::Press::Kind;
 
 class IronReader {
  public:
@@ -50,7 +50,7 @@ class IronReader {
   }
 
   void read_fold(const BoundClause& along) {
-    press_.kind = Kind::fold;
+    press_.kind = PressKind::fold;
     press_.line = line(along, "`along`");
     const auto angle = clauses_.quantity("fold");
     if (!angle) clauses_.need("fold");
@@ -62,8 +62,8 @@ class IronReader {
 
   void read_region(const BoundClause& in) {
     press_.region = eval_region(program_, clauses_.value(in), *in.scope, "`in`");
-    static constexpr std::pair<const char*, Kind> kinds[] = {
-        {"shrink", Kind::shrink}, {"extend", Kind::extend}, {"flat", Kind::flat}, {"curl", Kind::curl}};
+    static constexpr std::pair<const char*, PressKind> kinds[] = {
+        {"shrink", PressKind::shrink}, {"extend", PressKind::extend}, {"flat", PressKind::flat}, {"curl", PressKind::curl}};
     const BoundClause* chosen = nullptr;
     for (const auto& [word, kind] : kinds) {
       const BoundClause* found = clauses_.find(word);
@@ -80,8 +80,8 @@ class IronReader {
       fail(program_,
            Message("G1120", "iron in a region needs what it does", statement_.keyword.span)
                .help("add `shrink warp 1% weft 3%`, `extend ...`, `flat` or `curl radius 5 cm about LINE`"));
-    if (press_.kind == Kind::shrink || press_.kind == Kind::extend) read_lengths(*chosen);
-    if (press_.kind == Kind::curl) read_curl();
+    if (press_.kind == PressKind::shrink || press_.kind == PressKind::extend) read_lengths(*chosen);
+    if (press_.kind == PressKind::curl) read_curl();
   }
 
   void read_lengths(const BoundClause& chosen) {

@@ -18,7 +18,7 @@ design::Panel& panel_at(Program& program, int index) {
 
 const char* side_text(design::Facing side) { return side == design::Facing::face ? "face" : "back"; }
 
-void refuse_operands(Program& program, const Statement& statement) {
+void refuse_layer_operands(Program& program, const Statement& statement) {
   if (!statement.operands.empty())
     fail(program,
          Message("G0313", "this means nothing here", statement.operands[0].span)
@@ -152,7 +152,7 @@ int reserve_layer(Program& program, const Declaration& declaration) {
 Value evaluate_layer(Program& program, Declaration& declaration) {
   const Statement& statement = *declaration.statement;
   Clauses clauses(program, statement, *declaration.scope, &declaration.overrides);
-  refuse_operands(program, statement);
+  refuse_layer_operands(program, statement);
   design::Layer layer;
   layer.name = declaration.name;
   layer.origin = program.origin(statement.span);
@@ -199,7 +199,7 @@ int reserve_pad(Program& program, const Declaration& declaration) {
 Value evaluate_pad(Program& program, Declaration& declaration) {
   const Statement& statement = *declaration.statement;
   Clauses clauses(program, statement, *declaration.scope, &declaration.overrides);
-  refuse_operands(program, statement);
+  refuse_layer_operands(program, statement);
   design::Pad pad;
   pad.name = declaration.name;
   pad.origin = program.origin(statement.span);

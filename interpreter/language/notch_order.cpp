@@ -8,8 +8,8 @@
 namespace garment::interpreter {
 namespace {
 
-constexpr double kFits = 5e-3;  // m
-constexpr double kSame = 1e-6;  // m
+constexpr double kFits = 5e-3;    // m
+constexpr double kWithin = 1e-6;  // m
 
 struct Mark {
   std::string name;  ///< without the half
@@ -31,7 +31,7 @@ std::vector<Mark> marks_of(const Program& program, const design::SeamSide& side)
     const std::string& edge = design::edge_of(info.panel, part).name;
     const double low = std::min(part.from, part.to), high = std::max(part.from, part.to);
     for (const design::Notch& notch : info.panel.notches) {
-      if (notch.edge != edge || notch.at < low - kSame || notch.at > high + kSame) continue;
+      if (notch.edge != edge || notch.at < low - kWithin || notch.at > high + kWithin) continue;
       design::EdgePart before = part;
       before.to = std::clamp(notch.at, low, high);
       const auto span = info.spans.find(plain(notch.name));
@@ -55,7 +55,7 @@ std::vector<Mark> shared(const std::vector<Mark>& marks, const std::vector<Mark>
   return out;
 }
 
-std::string listed(const std::vector<Mark>& marks) {
+std::string listed_marks(const std::vector<Mark>& marks) {
   std::string text;
   for (const Mark& mark : marks) text += (text.empty() ? "" : ", ") + mark.name;
   return text;
@@ -67,10 +67,10 @@ void check_pair(Program& program, const SeamInfo& info, std::size_t k, bool alik
   for (std::size_t i = 0; i < a.size(); ++i) {
     if (a[i].name == b[i].name) continue;
     report(program, Message("G0432",
-                            "in seam `" + info.seam.name + "` the notches come as " + listed(a) + " on one side and as " +
-                                listed(b) + " on the other",
-                            info.spans[0], listed(a))
-                        .also(info.spans[k], listed(b))
+                            "in seam `" + info.seam.name + "` the notches come as " + listed_marks(a) + " on one side and as " +
+                                listed_marks(b) + " on the other",
+                            info.spans[0], listed_marks(a))
+                        .also(info.spans[k], listed_marks(b))
                         .help("is one of the edges drawn the other way than meant, or a notch in a wrong place? `reversed` "
                               "turns a side round"));
     return;

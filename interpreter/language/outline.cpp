@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "interpreter/language/clauses.hpp"
+#include "interpreter/language/curve_values.hpp"
 #include "interpreter/language/edge_course.hpp"
 #include "runtime/base/portable_math.hpp"
 #include "runtime/geometry/curve_map.hpp"
@@ -14,10 +15,9 @@ namespace {
 using design::Point2;
 using geometry::Curve;
 
-constexpr double kShortest = 1e-4;  // m, the shortest edge
-constexpr double kSnap = 1e-5;      // m, an outline that ends this near its start is closed
-constexpr double kFarthest = 100;   // m
-constexpr double kChordFits = 1e-4; // m, a copied course is this near as long from end to end
+constexpr double kShortestEdge = 1e-4;  // m, the shortest edge
+constexpr double kSnap = 1e-5;          // m, an outline that ends this near its start is closed
+constexpr double kChordFits = 1e-4;     // m, a copied course is this near as long from end to end
 
 class EdgeDrawer {
  public:
@@ -70,7 +70,7 @@ class EdgeDrawer {
     edge.allowance = allowance.value_or(0);
     clauses_.finish();
     if (allowance) drawing_.info.own_allowance.insert(name_);
-    if (!(edge.curve.length() >= kShortest))
+    if (!(edge.curve.length() >= kShortestEdge))
       fail(program_, Message("G0403",
                              kind_ + " `" + name_ + "` is " + format_mm(edge.curve.length()) +
                                  " long; it needs 0.1 mm at least",
@@ -103,7 +103,7 @@ class EdgeDrawer {
     }
     to_ = end_point();
     const Point2 wanted = to_ - from_, chord = curve.end() - curve.start();
-    if (std::fabs(wanted.norm() - chord.norm()) > kChordFits || chord.norm() < kShortest)
+    if (std::fabs(wanted.norm() - chord.norm()) > kChordFits || chord.norm() < kShortestEdge)
       fail(program_,
            Message("G0440",
                    "`" + name_ + "` is to end " + format_quantity(wanted.norm(), kLength) +
@@ -232,7 +232,7 @@ class EdgeDrawer {
         fail(program_, Message("G0307", "`arc through` takes one point", through->clause->span));
       const Point2 p =
           point(through->clause->values[0], *through->scope, "`arc through`", relative_) - (from_ + to_) / 2;
-      if (half < kShortest / 2) fail(program_, Message("G0403", "the arc's ends fall together", name_span_));
+      if (half < kShortestEdge / 2) fail(program_, Message("G0403", "the arc's ends fall together", name_span_));
       const Point2 t = chord / (2 * half), left(-t.y(), t.x());
       const double x = p.dot(t), y = p.dot(left);
       if (std::fabs(y) < 1e-7 && std::fabs(x) < half) return geometry::Line{};

@@ -9,8 +9,7 @@ namespace garment::interpreter {
 namespace {
 
 using design::Point2;
-
-double cross(const Point2& u, const Point2& v) { return u.x() * v.y() - u.y() * v.x(); }
+using geometry::cross;
 
 std::string plain_name(const std::string& name) {
   const std::size_t dot = name.rfind('.');

@@ -14,7 +14,7 @@ namespace {
 using design::Point2;
 
 constexpr double kStep = 5e-3;       // m between the places of an edge that are looked at
-constexpr double kNear = 1e-6;       // m
+constexpr double kLeastGap = 1e-6;   // m
 constexpr double kCorner = 2.5;      // allowances cross beside a corner; so many widths from it they may
 constexpr double kSharp = 0.9;       // cosine of the turn from which on it is a corner
 constexpr double kRound = 1.2;       // way along the edge to the straight way: less is no bend
@@ -54,7 +54,7 @@ class AllowanceChecker {
       const int n = std::clamp(static_cast<int>(std::ceil(length / kStep)), 2, 2000);
       for (int k = 0; k <= n; ++k) {
         const auto found = look(e, length * k / n);
-        if (found && found->excess > kTolerance && (!worst || found->excess > worst->excess + kNear)) worst = found;
+        if (found && found->excess > kTolerance && (!worst || found->excess > worst->excess + kLeastGap)) worst = found;
       }
     }
     if (worst) tell(*worst);
@@ -81,7 +81,7 @@ class AllowanceChecker {
       const double det = way.x() * d.y() - way.y() * d.x();
       if (det == 0) continue;
       const double gap = (w.x() * d.y() - w.y() * d.x()) / det, u = (w.x() * way.y() - w.y() * way.x()) / det;
-      if (!(gap > kNear && u >= 0 && u <= 1) || (nearest && gap >= nearest->gap)) continue;
+      if (!(gap > kLeastGap && u >= 0 && u <= 1) || (nearest && gap >= nearest->gap)) continue;
       const double wide = edges_[e].allowance + other.allowance;
       if (gap >= wide || joined(e, s, segment.edge, from + gap * way, gap, wide)) continue;
       nearest = Overlap{e, segment.edge, from, gap, wide - gap};

@@ -15,7 +15,7 @@ constexpr int kMaxPartDepth = 16;
 
 const std::string& keyword_of(const Declaration& declaration) { return declaration.statement->keyword.text; }
 
-Span name_span(const Declaration& declaration) {
+Span part_span(const Declaration& declaration) {
   const Statement& statement = *declaration.statement;
   if (statement.name) return statement.name->span;
   return statement.operands.empty() ? statement.keyword.span : statement.operands[0].span;
@@ -66,7 +66,7 @@ Declaration& find_component(Program& program, const Expr& callee, Scope& scope) 
     Message message("G1221", "`" + std::string(program.sources.text(callee.span)) + "` is no component",
                     callee.span);
     if (found != nullptr)
-      message.also(name_span(*found), "it is a " + keyword_of(*found)).help("`part NAME = COMPONENT(...)`");
+      message.also(part_span(*found), "it is a " + keyword_of(*found)).help("`part NAME = COMPONENT(...)`");
     fail(program, message);
   }
   if (found->state == Declaration::State::failed) throw Stop{};
@@ -144,7 +144,7 @@ void check_depth(Program& program, const Part& part, const Expr& call) {
                itself ? "component `" + part.component->name + "` needs a part of itself"
                       : "parts are nested more than " + std::to_string(kMaxPartDepth) + " deep",
                call.span)
-           .also(name_span(*part.component), "declared here")
+           .also(part_span(*part.component), "declared here")
            .help("`" + part.component->name + "`" + chain + " ...: end the recursion with an `if`, at most " +
                  std::to_string(kMaxPartDepth) + " deep"));
 }
@@ -302,7 +302,7 @@ void fail_part_member(Program& program, const Part& part, const std::string& nam
   std::string hint = did_you_mean(name, names);
   if (hint.empty()) hint = ports.empty() ? "it has no ports" : "its ports are " + listed(ports);
   fail(program, Message("G1224", "part `" + part.name + "` has no `" + name + "`", span)
-                    .also(name_span(*part.component), "its component")
+                    .also(part_span(*part.component), "its component")
                     .help(hint));
 }
 
@@ -317,7 +317,7 @@ void check_components(Program& program) {
     if (!used)
       report(program,
              Message("G1225", "component `" + item.declaration->name + "` is declared and never used",
-                     name_span(*item.declaration))
+                     part_span(*item.declaration))
                  .warning()
                  .help("write `part NAME = " + item.declaration->name +
                        "(...)`; what its block says is checked only then"));

@@ -9,7 +9,7 @@ namespace garment::interpreter {
 namespace {
 
 using design::RegionShape;
-using Kind = RegionShape::Kind;
+using RegionKind = RegionShape::Kind;
 
 constexpr const char* kShapes =
     "shapes are `within 5 cm of EDGE`, `above P`, `below P`, `left of LINE`, `right of LINE`, "
@@ -55,25 +55,25 @@ std::vector<Token> tokens_of(const Statement& statement) {
   return tokens;
 }
 
-RegionShape leaf(Kind kind) {
+RegionShape leaf(RegionKind kind) {
   RegionShape shape;
   shape.kind = kind;
   return shape;
 }
 
 /// Two shapes joined by `kind`, flat where it can be, without what holds nowhere or everywhere.
-RegionShape joined(Kind kind, RegionShape first, RegionShape next) {
-  const bool none = first.kind == Kind::nowhere, all = first.kind == Kind::everywhere;
-  const bool next_none = next.kind == Kind::nowhere, next_all = next.kind == Kind::everywhere;
-  if (kind == Kind::all_of) {
+RegionShape joined(RegionKind kind, RegionShape first, RegionShape next) {
+  const bool none = first.kind == RegionKind::nowhere, all = first.kind == RegionKind::everywhere;
+  const bool next_none = next.kind == RegionKind::nowhere, next_all = next.kind == RegionKind::everywhere;
+  if (kind == RegionKind::all_of) {
     if (none || next_all) return first;
     if (next_none || all) return next;
-  } else if (kind == Kind::any_of) {
+  } else if (kind == RegionKind::any_of) {
     if (all || next_none) return first;
     if (next_all || none) return next;
   } else {
     if (none || next_none) return first;
-    if (next_all) return leaf(Kind::nowhere);
+    if (next_all) return leaf(RegionKind::nowhere);
   }
   if (first.kind == kind) {
     first.children.push_back(std::move(next));
@@ -86,9 +86,9 @@ RegionShape joined(Kind kind, RegionShape first, RegionShape next) {
 }
 
 RegionShape opposite(RegionShape shape) {
-  if (shape.kind == Kind::nowhere) return leaf(Kind::everywhere);
-  if (shape.kind == Kind::everywhere) return leaf(Kind::nowhere);
-  RegionShape result = leaf(Kind::opposite);
+  if (shape.kind == RegionKind::nowhere) return leaf(RegionKind::everywhere);
+  if (shape.kind == RegionKind::everywhere) return leaf(RegionKind::nowhere);
+  RegionShape result = leaf(RegionKind::opposite);
   result.children.push_back(std::move(shape));
   return result;
 }
@@ -173,7 +173,7 @@ class ShapeReader {
 
   RegionShape read_any() {
     RegionShape shape = read_all();
-    while (take("or")) shape = joined(Kind::any_of, std::move(shape), read_all());
+    while (take("or")) shape = joined(RegionKind::any_of, std::move(shape), read_all());
     return shape;
   }
 
@@ -181,9 +181,9 @@ class ShapeReader {
     RegionShape shape = read_one();
     while (true) {
       if (take("and"))
-        shape = joined(Kind::all_of, std::move(shape), read_one());
+        shape = joined(RegionKind::all_of, std::move(shape), read_one());
       else if (take("minus"))
-        shape = joined(Kind::minus, std::move(shape), read_one());
+        shape = joined(RegionKind::minus, std::move(shape), read_one());
       else
         return shape;
     }
@@ -231,7 +231,7 @@ class ShapeReader {
   RegionShape read_value(const Expr& expr) {
     count_step(program_, expr.span);
     if (expr.kind == ExprKind::binary && (expr.text == "and" || expr.text == "or" || expr.text == "minus")) {
-      const Kind kind = expr.text == "or" ? Kind::any_of : expr.text == "and" ? Kind::all_of : Kind::minus;
+      const RegionKind kind = expr.text == "or" ? RegionKind::any_of : expr.text == "and" ? RegionKind::all_of : RegionKind::minus;
       RegionShape first = read_value(expr.children[0]);
       return joined(kind, std::move(first), read_value(expr.children[1]));
     }
@@ -270,7 +270,7 @@ class ShapeReader {
     const int index = eval_region(program_, expr, scope_, "a region's shape");
     for (const design::RegionPart& part : program_.garment.regions[static_cast<std::size_t>(index)].parts)
       if (part.panel == on_.panel) return part.shape;
-    return leaf(Kind::nowhere);
+    return leaf(RegionKind::nowhere);
   }
 
   double length(const Expr& expr, const char* what, double least) {
@@ -316,19 +316,19 @@ class ShapeReader {
   }
 
   RegionShape make_near(const Expr& distance, const Expr& target) {
-    RegionShape shape = leaf(Kind::near);
+    RegionShape shape = leaf(RegionKind::near);
     shape.size = length(distance, "`within`", 1e-4);
     const Value value = eval(program_, target, scope_);
     if (value.as<PointValue>() != nullptr) {
       const auto p = point(target, shape, "`of`");
-      if (!p) return leaf(Kind::nowhere);
+      if (!p) return leaf(RegionKind::nowhere);
       shape.points.push_back(*p);
       return shape;
     }
     const auto* edge = value.as<EdgeValue>();
     if (edge == nullptr) fail_target(target, value, "`of` takes an edge, line or point");
     shape.parts = lines(target, *edge, shape);
-    return shape.parts.empty() ? leaf(Kind::nowhere) : shape;
+    return shape.parts.empty() ? leaf(RegionKind::nowhere) : shape;
   }
 
   [[noreturn]] void fail_target(const Expr& expr, const Value& value, const char* wanted) {
@@ -339,7 +339,7 @@ class ShapeReader {
   }
 
   RegionShape make_height(const std::string& word, const Expr& expr) {
-    RegionShape shape = leaf(word == "above" ? Kind::above : Kind::below);
+    RegionShape shape = leaf(word == "above" ? RegionKind::above : RegionKind::below);
     const Value value = eval(program_, expr, scope_);
     if (value.as<Quantity>() != nullptr) {
       shape.size = as_quantity(program_, value, expr.span, kLength, "`" + word + "`").value;
@@ -350,7 +350,7 @@ class ShapeReader {
                          .help("take one of its points, `" + std::string(program_.sources.text(expr.span)) +
                                ".start`, or `left of` and `right of` it"));
     const auto p = point(expr, shape, word == "above" ? "`above`" : "`below`");
-    if (!p) return leaf(Kind::nowhere);
+    if (!p) return leaf(RegionKind::nowhere);
     shape.size = p->y();
     return shape;
   }
@@ -363,19 +363,19 @@ class ShapeReader {
   }
 
   RegionShape make_side(const std::string& word, const Expr& expr) {
-    RegionShape shape = leaf((word == "left") != mirrored() ? Kind::left_of : Kind::right_of);
+    RegionShape shape = leaf((word == "left") != mirrored() ? RegionKind::left_of : RegionKind::right_of);
     const Value value = eval(program_, expr, scope_);
     const auto* edge = value.as<EdgeValue>();
     if (edge == nullptr) fail_target(expr, value, "`of` takes an edge or line");
     shape.parts = lines(expr, *edge, shape);
-    return shape.parts.empty() ? leaf(Kind::nowhere) : shape;
+    return shape.parts.empty() ? leaf(RegionKind::nowhere) : shape;
   }
 
   RegionShape make_circle(const Expr& centre, const Expr& radius) {
-    RegionShape shape = leaf(Kind::circle);
+    RegionShape shape = leaf(RegionKind::circle);
     const auto p = point(centre, shape, "the centre of a circle");
     shape.size = length(radius, "the radius", 1e-4);
-    if (!p) return leaf(Kind::nowhere);
+    if (!p) return leaf(RegionKind::nowhere);
     shape.points.push_back(*p);
     return shape;
   }
@@ -387,10 +387,10 @@ class ShapeReader {
                                  " corners; it needs 3 at least",
                              call.span)
                          .help("write `polygon(P, Q, R, ...)`"));
-    RegionShape shape = leaf(Kind::polygon);
+    RegionShape shape = leaf(RegionKind::polygon);
     for (std::size_t k = 1; k < call.children.size(); ++k) {
       const auto p = point(call.children[k], shape, "a corner of a polygon");
-      if (!p) return leaf(Kind::nowhere);
+      if (!p) return leaf(RegionKind::nowhere);
       shape.points.push_back(*p);
     }
     return shape;
@@ -411,7 +411,7 @@ class ShapeReader {
 RegionShape half_shape(const Program& program, const PanelPart& on) {
   if (on.half.empty()) return RegionShape{};
   const PanelInfo& info = program.panels[static_cast<std::size_t>(on.panel)];
-  RegionShape shape = leaf(Kind::beyond);  // everything on its side of the fold
+  RegionShape shape = leaf(RegionKind::beyond);  // everything on its side of the fold
   shape.size = info.panel.fold_x.value_or(0);
   shape.sign = (on.half == "left") != info.on_back ? 1 : -1;
   return shape;
@@ -421,7 +421,7 @@ RegionShape read_region_shape(Program& program, const Statement& statement, Scop
                               const std::vector<PanelPart>& others) {
   RegionShape shape = ShapeReader(program, statement, scope, on, others).read();
   if (on.half.empty()) return shape;
-  return joined(Kind::all_of, half_shape(program, on), std::move(shape));
+  return joined(RegionKind::all_of, half_shape(program, on), std::move(shape));
 }
 
 }  // namespace garment::interpreter

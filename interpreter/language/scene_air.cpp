@@ -6,8 +6,8 @@
 namespace garment::interpreter {
 namespace {
 
-constexpr double kFastestWind = 60;  // m/s
-constexpr double kFar = 1000;        // m
+constexpr double kFastestWind = 60;    // m/s
+constexpr double kFarthestAir = 1000;  // m
 constexpr double kMostDrag = 10;
 constexpr double kMostFriction = 2;
 
@@ -36,7 +36,7 @@ Eigen::Vector3d eval_way(Program& program, Clauses& clauses, const char* word) {
   const BoundClause& clause = clauses.need(word);
   const Expr& expr = clauses.value(clause);
   const Eigen::Vector3d way =
-      eval_vector(program, expr, *clause.scope, kNumber, kFar, "`" + std::string(word) + "`");
+      eval_vector(program, expr, *clause.scope, kNumber, kFarthestAir, "`" + std::string(word) + "`");
   if (!(way.norm() > 1e-9))
     fail(program,
          Message("G0309", "`" + std::string(word) + "` has no direction: it is (0, 0, 0)", expr.span));
@@ -94,7 +94,8 @@ void run_constrain(Program& program, const Item& item) {
     }
   } else {
     const BoundClause& through = clauses.need("through");
-    made.through = eval_vector(program, clauses.value(through), *through.scope, kLength, kFar, "`through`");
+    made.through =
+        eval_vector(program, clauses.value(through), *through.scope, kLength, kFarthestAir, "`through`");
     made.along = eval_way(program, clauses, made.kind == Kind::on_line ? "along" : "normal");
   }
   clauses.finish();

@@ -6,7 +6,7 @@
 namespace garment::interpreter {
 namespace {
 
-constexpr double kFarthest = 100;      // m a body may move
+constexpr double kFarthestMove = 100;  // m a body may move
 constexpr double kMostTurn = 1000;     // rad
 constexpr double kMostForce = 10'000;  // N
 
@@ -38,7 +38,7 @@ design::Pose read_pose(Program& program, const Statement& statement, Scope& scop
   clauses.need("at");
   pose.time = *clauses.quantity("at");
   if (const BoundClause* move = clauses.find("move"))
-    pose.move = eval_vector(program, clauses.value(*move), *move->scope, kLength, kFarthest, "`move`");
+    pose.move = eval_vector(program, clauses.value(*move), *move->scope, kLength, kFarthestMove, "`move`");
   if (const BoundClause* turn = clauses.find("turn"))
     pose.turn = eval_vector(program, clauses.value(*turn), *turn->scope, kAngle, kMostTurn, "`turn`");
   clauses.finish();

@@ -15,13 +15,13 @@ namespace {
 using design::EdgePart;
 using design::Point2;
 
-constexpr double kSame = 1e-3;  // m, points of a panel this near are one corner
+constexpr double kOneCorner = 1e-3;  // m, points of a panel this near are one corner
 
 }  // namespace
 
 std::size_t SeamCorners::of_point(int panel, const Point2& p) {
   for (std::size_t k = 0; k < points_.size(); ++k)
-    if (points_[k].first == panel && (points_[k].second - p).norm() < kSame) return root(k);
+    if (points_[k].first == panel && (points_[k].second - p).norm() < kOneCorner) return root(k);
   points_.emplace_back(panel, p);
   parent_.push_back(points_.size() - 1);
   return points_.size() - 1;

@@ -13,7 +13,7 @@ using design::EdgePart;
 using design::Point2;
 using design::SeamSide;
 
-constexpr double kNear = 1e-3;  // m: a place this near is on the ring
+constexpr double kOnRing = 1e-3;  // m: a place this near is on the ring
 
 /// Makes the side begin with its part `first`.
 void turn(SeamSide& side, std::size_t first) {
@@ -50,11 +50,11 @@ bool begin_at_point(const Program& program, SeamSide& side, int panel, const Poi
     const geometry::Curve& curve =
         design::edge_of(program.panels[static_cast<std::size_t>(panel)].panel, part).curve;
     const double s = curve.nearest(p);
-    if ((curve.point_at(s) - p).norm() > kNear) continue;
+    if ((curve.point_at(s) - p).norm() > kOnRing) continue;
     const double low = std::min(part.from, part.to), high = std::max(part.from, part.to);
-    if (s < low - kNear || s > high + kNear) continue;
-    if (std::fabs(s - part.from) < kNear) return turn(side, k), true;
-    if (std::fabs(s - part.to) < kNear) return turn(side, (k + 1) % side.parts.size()), true;
+    if (s < low - kOnRing || s > high + kOnRing) continue;
+    if (std::fabs(s - part.from) < kOnRing) return turn(side, k), true;
+    if (std::fabs(s - part.to) < kOnRing) return turn(side, (k + 1) % side.parts.size()), true;
     cut(side, k, s);
     return turn(side, k + 1), true;
   }
@@ -80,12 +80,12 @@ bool is_round(const Program& program, const SeamSide& side) {
   const EdgePart& first = side.parts.front();
   const geometry::Curve& curve =
       design::edge_of(program.panels[static_cast<std::size_t>(first.panel)].panel, first).curve;
-  if (first.from > kNear && first.from < curve.length() - kNear)
+  if (first.from > kOnRing && first.from < curve.length() - kOnRing)
     return false;                     // a part was named: its start is meant
   constexpr double kSmooth = 0.9998;  // cosine of about 1 deg
   double length = 0;
   for (const EdgePart& part : side.parts) length += std::fabs(part.to - part.from);
-  if (length < 10 * kNear) return false;  // a crumb of an edge, whose ends are one corner
+  if (length < 10 * kOnRing) return false;  // a crumb of an edge, whose ends are one corner
   for (std::size_t k = 0; k < side.parts.size(); ++k) {
     const EdgePart &a = side.parts[k], &b = side.parts[(k + 1) % side.parts.size()];
     if (a.panel != b.panel || a.on != b.on) return false;
@@ -96,7 +96,7 @@ bool is_round(const Program& program, const SeamSide& side) {
     };
     const Point2 end = design::edge_of(panel, a).curve.point_at(a.to),
                  begin = design::edge_of(panel, b).curve.point_at(b.from);
-    if ((end - begin).norm() > kNear || way(a, a.to).dot(way(b, b.from)) < kSmooth) return false;
+    if ((end - begin).norm() > kOnRing || way(a, a.to).dot(way(b, b.from)) < kSmooth) return false;
   }
   return true;
 }

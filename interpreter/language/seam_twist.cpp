@@ -14,7 +14,7 @@ namespace {
 using design::EdgePart;
 using design::Point2;
 
-constexpr double kLeast = 2e-3;  // m of common seam that count
+constexpr double kLeastContact = 2e-3;  // m of common seam that count
 
 /// Panels known to lie face to the same side as their root, or to the other.
 class Faces {
@@ -68,7 +68,7 @@ void add_contacts(const Program& program, std::size_t index, std::vector<Contact
   for (std::size_t i = 0, j = 0; i < a->size() && j < b->size();) {
     const double end_a = done_a + sewn_length(program, (*a)[i]) / length_a;
     const double end_b = done_b + sewn_length(program, (*b)[j]) / length_b;
-    if ((std::min(end_a, end_b) - std::max(done_a, done_b)) * length_a > kLeast)
+    if ((std::min(end_a, end_b) - std::max(done_a, done_b)) * length_a > kLeastContact)
       contacts.push_back({index,
                           {(*a)[i].panel, (*b)[j].panel},
                           with_loop(program, (*a)[i]) == with_loop(program, (*b)[j])});
@@ -129,7 +129,7 @@ void check_twists(Program& program) {
                          (q.panel == part.panel && q.edge == part.edge && q.on == part.on && other != s &&
                           std::min(std::max(q.from, q.to), std::max(part.from, part.to)) -
                                   std::max(std::min(q.from, q.to), std::min(part.from, part.to)) >
-                              kLeast);
+                              kLeastContact);
         if (overlaps && (list.empty() || list.back() != s)) list.push_back(s);
       }
   std::vector<Contact> contacts;

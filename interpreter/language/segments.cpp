@@ -7,11 +7,11 @@ namespace garment::interpreter {
 namespace {
 
 using design::Point2;
+using geometry::cross;
 
 constexpr double kChordError = 5e-5;  // m
 constexpr double kBeyond = 1e-7;      // m; less is a touch
 
-double cross(const Point2& u, const Point2& v) { return u.x() * v.y() - u.y() * v.x(); }
 double low(const Segment& s) { return std::min(s.a.x(), s.b.x()); }
 double high(const Segment& s) { return std::max(s.a.x(), s.b.x()); }
 

@@ -275,23 +275,23 @@ class Solver {
   bool depends_ = false;
 };
 
-struct DepthGuard {
+struct SolveDepthGuard {
   Program& program;
-  DepthGuard(Program& p, Span span) : program(p) {
+  SolveDepthGuard(Program& p, Span span) : program(p) {
     if (p.solving >= kMaxSolveDepth)
       fail(p, Message("G1207", "solves need each other more than " + std::to_string(kMaxSolveDepth) + " deep", span)
                   .help("compute one of the values directly"));
     ++p.solving;
   }
-  DepthGuard(const DepthGuard&) = delete;
-  DepthGuard& operator=(const DepthGuard&) = delete;
-  ~DepthGuard() { --program.solving; }
+  SolveDepthGuard(const SolveDepthGuard&) = delete;
+  SolveDepthGuard& operator=(const SolveDepthGuard&) = delete;
+  ~SolveDepthGuard() { --program.solving; }
 };
 
 }  // namespace
 
 Value evaluate_solve(Program& program, Declaration& declaration) {
-  DepthGuard guard(program, declaration.statement->keyword.span);
+  SolveDepthGuard guard(program, declaration.statement->keyword.span);
   return Solver(program, declaration).solve();
 }
 

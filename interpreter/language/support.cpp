@@ -79,7 +79,7 @@ double reach_above(const PanelInfo& info, const std::string& edge) {
   return n > 0 ? top - sum / n : 0;
 }
 
-struct Ring {
+struct TopRing {
   double height = -1e300, length = 0;
   std::string level;
   Span span;
@@ -164,8 +164,8 @@ class SupportCheck {
   }
 
   /// The topmost ring of the pieces; nothing where they are held by what can be told, or too little is said.
-  std::optional<Ring> top_ring(const std::vector<std::size_t>& members) {
-    Ring ring;
+  std::optional<TopRing> top_ring(const std::vector<std::size_t>& members) {
+    TopRing ring;
     for (std::size_t p : members) {
       const PanelInfo& info = program_.panels[p];
       const Placement& place = info.panel.placement;

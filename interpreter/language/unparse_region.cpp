@@ -13,9 +13,9 @@ using design::EdgePart;
 using design::Panel;
 using design::Point2;
 using design::RegionShape;
-using Kind = RegionShape::Kind;
+using RegionKind = RegionShape::Kind;
 
-constexpr double kFar = 50;  // m: half planes are written as polygons of this reach
+constexpr double kHalfPlane = 50;  // m: half planes are written as polygons of this reach
 
 /// The part of the panel's mirror image of an edge; the part itself where there is none.
 EdgePart mirrored(const Panel& panel, const EdgePart& part) {
@@ -46,35 +46,35 @@ EdgePart mirrored(const Panel& panel, const EdgePart& part) {
 RegionShape mirrored(const Panel& panel, RegionShape leaf) {
   for (Point2& p : leaf.points) p.x() = 2 * *panel.fold_x - p.x();
   for (EdgePart& part : leaf.parts) part = mirrored(panel, part);
-  if (leaf.kind == Kind::left_of)
-    leaf.kind = Kind::right_of;
-  else if (leaf.kind == Kind::right_of)
-    leaf.kind = Kind::left_of;
+  if (leaf.kind == RegionKind::left_of)
+    leaf.kind = RegionKind::right_of;
+  else if (leaf.kind == RegionKind::right_of)
+    leaf.kind = RegionKind::left_of;
   return leaf;
 }
 
 RegionShape half_plane(double x, int sign) {
   RegionShape shape;
-  shape.kind = Kind::beyond;
+  shape.kind = RegionKind::beyond;
   shape.size = x;
   shape.sign = sign;
   return shape;
 }
 
-class ShapeWriter {
+class RegionWriter {
  public:
-  ShapeWriter(const design::Garment& garment, const Names& names, std::size_t panel)
+  RegionWriter(const design::Garment& garment, const Names& names, std::size_t panel)
       : garment_(garment), names_(names), panel_(garment.panels[panel]) {}
 
   std::string write(const RegionShape& shape) const {
     switch (shape.kind) {
-      case Kind::all_of:
+      case RegionKind::all_of:
         return joined(shape, " and ");
-      case Kind::any_of:
+      case RegionKind::any_of:
         return joined(shape, " or ");
-      case Kind::minus:
+      case RegionKind::minus:
         return joined(shape, " minus ");
-      case Kind::opposite:
+      case RegionKind::opposite:
         return "not (" + write(shape.children[0]) + ")";
       default:
         return halves(shape);
@@ -91,7 +91,7 @@ class ShapeWriter {
 
   /// A shape of the drawn half holds there, and its image on the other side.
   std::string halves(const RegionShape& leaf) const {
-    const bool same = leaf.kind == Kind::above || leaf.kind == Kind::below || leaf.kind == Kind::everywhere;
+    const bool same = leaf.kind == RegionKind::above || leaf.kind == RegionKind::below || leaf.kind == RegionKind::everywhere;
     if (leaf.drawn_side == 0 || !panel_.fold_x || same) return plain(leaf);
     return fmt::format("(({}) and ({})) or (({}) and ({}))", plain(leaf),
                        plain(half_plane(*panel_.fold_x, leaf.drawn_side)), plain(mirrored(panel_, leaf)),
@@ -116,34 +116,34 @@ class ShapeWriter {
 
   std::string plain(const RegionShape& leaf) const {
     switch (leaf.kind) {
-      case Kind::everywhere:
-        return fmt::format("above({})", length(-kFar));
-      case Kind::nowhere:
-        return fmt::format("above({})", length(kFar));
-      case Kind::polygon: {
+      case RegionKind::everywhere:
+        return fmt::format("above({})", length(-kHalfPlane));
+      case RegionKind::nowhere:
+        return fmt::format("above({})", length(kHalfPlane));
+      case RegionKind::polygon: {
         std::string out;
         for (const Point2& p : leaf.points) out += (out.empty() ? "" : ", ") + point(p);
         return "polygon(" + out + ")";
       }
-      case Kind::circle:
+      case RegionKind::circle:
         return fmt::format("circle({}, {})", point(leaf.points[0]), length(leaf.size));
-      case Kind::near:
+      case RegionKind::near:
         if (leaf.parts.empty())
           return fmt::format("within({}, {})", length(leaf.size), point(leaf.points[0]));
         return edges(leaf, fmt::format("within({}, ", length(leaf.size)));
-      case Kind::above:
+      case RegionKind::above:
         return fmt::format("above({})", length(leaf.size));
-      case Kind::below:
+      case RegionKind::below:
         return fmt::format("below({})", length(leaf.size));
-      case Kind::left_of:
+      case RegionKind::left_of:
         return "left_of(" + chain(leaf) + ")";
-      case Kind::right_of:
+      case RegionKind::right_of:
         return "right_of(" + chain(leaf) + ")";
       default: {
-        const double far = leaf.size + leaf.sign * kFar;
-        return fmt::format("polygon({}, {}, {}, {})", point(Point2(leaf.size, -kFar)),
-                           point(Point2(far, -kFar)), point(Point2(far, kFar)),
-                           point(Point2(leaf.size, kFar)));
+        const double far = leaf.size + leaf.sign * kHalfPlane;
+        return fmt::format("polygon({}, {}, {}, {})", point(Point2(leaf.size, -kHalfPlane)),
+                           point(Point2(far, -kHalfPlane)), point(Point2(far, kHalfPlane)),
+                           point(Point2(leaf.size, kHalfPlane)));
       }
     }
   }
@@ -157,7 +157,7 @@ class ShapeWriter {
 
 std::string region_shape(const design::Garment& garment, const Names& names, std::size_t panel,
                          const design::RegionShape& shape) {
-  return ShapeWriter(garment, names, panel).write(shape);
+  return RegionWriter(garment, names, panel).write(shape);
 }
 
 }  // namespace garment::interpreter::text

@@ -17,7 +17,7 @@ std::string channel(double value) {
   return fmt::format("{:02x}", byte);
 }
 
-struct ShapeWriter {
+struct BodyWriter {
   std::string operator()(const design::Mannequin& person) const {
     std::string out =
         fmt::format("mannequin(sex: \"{}\", size: {}",
@@ -87,7 +87,7 @@ std::string fabric(const std::string& name, const design::Fabric& fabric) {
 }
 
 std::string body(const std::string& name, const design::Body& body) {
-  std::string out = fmt::format("body {} = {}", name, std::visit(ShapeWriter{}, body.shape));
+  std::string out = fmt::format("body {} = {}", name, std::visit(BodyWriter{}, body.shape));
   if (body.position != Eigen::Vector3d::Zero()) out += " at " + point(body.position);
   if (body.friction != design::Body{}.friction) out += " friction " + format_number(body.friction);
   return out;

@@ -11,7 +11,7 @@ constexpr std::size_t kMaxHeader = 8192;          // bytes of one line
 constexpr std::uint64_t kMaxMessage = 32u << 20;  // bytes of one message: a script of 4 MiB, escaped
 constexpr std::size_t kMaxWaiting = 256;          // messages
 constexpr int kMaxDepth = 256;                    // of JSON
-constexpr int kParseError = -32700, kInvalidRequest = -32600;
+constexpr int kParseError = -32700;
 
 std::string lower(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),

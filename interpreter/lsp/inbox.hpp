@@ -15,6 +15,8 @@
 
 namespace garment::lsp {
 
+constexpr int kInvalidRequest = -32600;  // JSON-RPC
+
 /// Gives up to `size` bytes into `at`; 0 at the end of the stream.
 using ReadBytes = std::function<std::size_t(char* at, std::size_t size)>;
 

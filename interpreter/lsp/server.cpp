@@ -7,7 +7,7 @@ namespace {
 
 constexpr double kPause = 0.3;  // s in the typing, after which the model is built: that takes a large garment half a second
 
-constexpr int kInvalidRequest = -32600, kNoSuchMethod = -32601, kInvalidParams = -32602, kInternal = -32603;
+constexpr int kNoSuchMethod = -32601, kInvalidParams = -32602, kInternal = -32603;
 constexpr int kNotInitialized = -32002, kCancelled = -32800;
 
 using Answer = Json (*)(const Question&);

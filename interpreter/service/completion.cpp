@@ -18,10 +18,6 @@ namespace {
 
 using namespace interpreter;
 
-bool is_any(std::string_view word, std::initializer_list<std::string_view> words) {
-  return std::find(words.begin(), words.end(), word) != words.end();
-}
-
 bool is_panel_block(const std::string& keyword) { return is_any(keyword, {"panel", "pair panel"}); }
 
 class Proposer {

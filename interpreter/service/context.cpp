@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "interpreter/language/construct_table.hpp"
+#include "interpreter/service/symbols.hpp"
 
 namespace garment::service {
 namespace {
@@ -10,10 +11,6 @@ namespace {
 using interpreter::ConstructRecord;
 using interpreter::find_clause;
 using interpreter::find_construct;
-
-bool is_any(std::string_view word, std::initializer_list<std::string_view> words) {
-  return std::find(words.begin(), words.end(), word) != words.end();
-}
 
 bool asks_for_value(const Token& token, std::string_view word) {
   if (token.kind == TokenKind::sign)

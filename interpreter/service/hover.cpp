@@ -22,10 +22,6 @@ const Module* module_of(const Program& program, grammar::SourceId source) {
   return nullptr;
 }
 
-bool holds(Span span, std::uint32_t offset) {
-  return span.begin <= offset && offset <= span.end && span.end > span.begin;
-}
-
 std::string code(const std::string& text) { return "```garment\n" + text + "\n```"; }
 
 std::string plain_doc(const std::string& doc) { return doc.empty() ? "" : "\n\n" + doc; }

@@ -7,10 +7,6 @@ using grammar::Expr;
 using grammar::Span;
 using grammar::Statement;
 
-bool holds(Span span, std::uint32_t offset) {
-  return span.begin <= offset && offset <= span.end && span.end > span.begin;
-}
-
 void locate_expr(const Expr& expr, std::uint32_t offset, Located& found) {
   if (!holds(expr.span, offset)) return;
   found.exprs.push_back(&expr);

@@ -14,6 +14,11 @@ struct Located {
   std::vector<const grammar::Expr*> exprs;            ///< outermost first
 };
 
+/// True where the place touches the span.
+inline bool holds(grammar::Span span, std::uint32_t offset) {
+  return span.begin <= offset && offset <= span.end && span.end > span.begin;
+}
+
 Located locate(const grammar::Script& script, std::uint32_t offset);
 
 /// A scope in which the innermost statement was evaluated (of several rounds the first); the script's if it

@@ -17,10 +17,6 @@ constexpr int kMaxLike = 64;  // panels that are like panels that are like ...
 
 using Table = std::map<std::string, int, std::less<>>;  // name -> thing
 
-bool is_any(std::string_view word, std::initializer_list<std::string_view> words) {
-  return std::find(words.begin(), words.end(), word) != words.end();
-}
-
 bool is_control(const Statement& statement) { return is_any(statement.keyword.text, {"if", "for", "both"}); }
 bool is_panel(std::string_view keyword) { return is_any(keyword, {"panel", "pair panel"}); }
 

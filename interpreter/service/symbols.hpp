@@ -1,12 +1,19 @@
 #pragma once
 // What a script declares, as a tree: the outline that an editor shows, and the names that completion
 // proposes.
+#include <algorithm>
+#include <initializer_list>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "grammar/syntax_tree.hpp"
 
 namespace garment::service {
+
+inline bool is_any(std::string_view word, std::initializer_list<std::string_view> words) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
 
 /// A declared thing. Those of a panel's or component's block are its children; `if`, `for` and `both` add no
 /// level.

@@ -12,7 +12,6 @@
 namespace garment::session {
 namespace {
 
-constexpr std::uint64_t kMaxScriptBytes = 4u << 20;
 constexpr std::size_t kMostSteps = 500;         // that can be undone
 constexpr std::size_t kMostBytes = 512u << 20;  // of the shapes kept for that
 constexpr std::size_t kWhole = 6;  // steps whose models are kept; others are built again when needed

@@ -1,5 +1,6 @@
 #pragma once
 // A script that is alive: entries typed at a prompt edit it, ask it, drape it. Knows no terminal.
+#include <cstdint>
 #include <deque>
 #include <functional>
 #include <memory>
@@ -14,6 +15,8 @@
 #include "interpreter/session/stage.hpp"
 
 namespace garment::session {
+
+constexpr std::uint64_t kMaxScriptBytes = 4u << 20;
 
 struct SessionOptions {
   std::string stdlib_dir;

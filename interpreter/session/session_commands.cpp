@@ -13,7 +13,6 @@
 namespace garment::session {
 namespace {
 
-constexpr std::uint64_t kMaxScriptBytes = 4u << 20;
 constexpr int kMostThreads = 256, kMostStepsOfADrape = 1'000'000;
 
 std::string trimmed(const std::string& text) {

@@ -14,34 +14,16 @@
 #include <filesystem>
 #include <utility>
 
+#include "runtime/base/descriptor.hpp"
+
 namespace garment {
 namespace {
+
+using detail::Descriptor, detail::last_error, detail::write_all;
 
 namespace fs = std::filesystem;
 
 constexpr long kProcFiles = 0x9fa0, kSystemFiles = 0x62656572;  // statfs magic of /proc and /sys
-
-HostError last_error() { return {std::strerror(errno)}; }
-
-class Descriptor {
- public:
-  explicit Descriptor(int fd = -1) : fd_(fd) {}
-  Descriptor(Descriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
-  Descriptor& operator=(Descriptor&& other) noexcept {
-    std::swap(fd_, other.fd_);
-    return *this;
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  ~Descriptor() {
-    if (fd_ >= 0) ::close(fd_);
-  }
-  int get() const { return fd_; }
-  int release() { return std::exchange(fd_, -1); }
-
- private:
-  int fd_;
-};
 
 /// The granted folder that holds a real path, and the names that lead there from it.
 struct Way {
@@ -85,16 +67,6 @@ HostResult<Descriptor> walk(const Way& way, bool make) {
     at = std::move(next);
   }
   return {std::move(at), {}};
-}
-
-bool write_all(int fd, std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t n = ::write(fd, bytes.data(), bytes.size());
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) return false;
-    bytes.remove_prefix(static_cast<std::size_t>(n));
-  }
-  return true;
 }
 
 }  // namespace

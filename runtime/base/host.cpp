@@ -16,11 +16,14 @@
 #include <utility>
 
 #include "runtime/base/access.hpp"
+#include "runtime/base/descriptor.hpp"
 #include "runtime/base/folder.hpp"
 #include "runtime/base/interrupt.hpp"
 
 namespace garment {
 namespace {
+
+using detail::Descriptor, detail::last_error, detail::write_all;
 
 volatile std::sig_atomic_t interrupt_count = 0;
 volatile std::sig_atomic_t survives = 0;
@@ -32,33 +35,6 @@ extern "C" void on_interrupt(int) {
     std::signal(SIGINT, SIG_DFL);
     std::raise(SIGINT);
   }
-}
-
-HostError last_error() { return {std::strerror(errno)}; }
-
-class Descriptor {
- public:
-  explicit Descriptor(int fd) : fd_(fd) {}
-  ~Descriptor() {
-    if (fd_ >= 0) ::close(fd_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  int get() const { return fd_; }
-  int release() { return std::exchange(fd_, -1); }
-
- private:
-  int fd_;
-};
-
-bool write_all(int fd, std::string_view bytes) {
-  while (!bytes.empty()) {
-    ssize_t n = ::write(fd, bytes.data(), bytes.size());
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) return false;
-    bytes.remove_prefix(static_cast<std::size_t>(n));
-  }
-  return true;
 }
 
 class SystemHost final : public Host {

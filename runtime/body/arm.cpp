@@ -7,11 +7,11 @@
 namespace garment::body {
 namespace {
 
-constexpr double kStep = 0.01;       // m, between sections
-constexpr double kLookBack = 6;      // sections from which the direction is taken
-constexpr double kMaxArea = 0.035;   // m^2, more is no arm
-constexpr double kPalm = 1.04;       // girth of a palm against the wrist's, at least
-constexpr double kMinArea = 0.0004;  // m^2, less is a finger
+constexpr double kBetweenSections = 0.01;  // m, between sections
+constexpr double kLookBack = 6;            // sections from which the direction is taken
+constexpr double kMaxArea = 0.035;         // m^2, more is no arm
+constexpr double kPalm = 1.04;             // girth of a palm against the wrist's, at least
+constexpr double kMinArea = 0.0004;        // m^2, less is a finger
 
 struct Seed {
   Vector3d center, axis;
@@ -84,7 +84,7 @@ std::vector<Section> walk(const TriangleMesh& mesh, const Landmarks& marks, cons
                           double longest) {
   std::vector<Section> sections;
   Vector3d center = seed.center, axis = seed.axis;
-  for (double s = 0; s < longest; s += kStep) {
+  for (double s = 0; s < longest; s += kBetweenSections) {
     std::optional<Section> section = section_near(mesh, center, axis);
     if (!section) break;
     double girth = perimeter(section->hull);
@@ -96,9 +96,9 @@ std::vector<Section> walk(const TriangleMesh& mesh, const Landmarks& marks, cons
     if (n > 3) {
       std::size_t back = n - 1 - std::min<std::size_t>(n - 1, static_cast<std::size_t>(kLookBack));
       Vector3d chord = sense * (sections[n - 1].center - sections[back].center);
-      if (chord.norm() > 0.5 * kStep) axis = (axis + 0.5 * chord.normalized()).normalized();
+      if (chord.norm() > 0.5 * kBetweenSections) axis = (axis + 0.5 * chord.normalized()).normalized();
     }
-    center = sections.back().center + sense * kStep * axis;
+    center = sections.back().center + sense * kBetweenSections * axis;
   }
   return sections;
 }
@@ -128,10 +128,10 @@ std::vector<Section> trace_arm(const TriangleMesh& mesh, const Landmarks& marks,
   for (std::size_t i = *wrist; i < n; ++i) palm = std::max(palm, girth(i));
   if (palm < kPalm * girth(*wrist)) *wrist = n - 1;
   // Up to the shoulder joint the arm lies in the body: its first whole section is carried on.
-  std::size_t ahead = static_cast<std::size_t>(0.045 * marks.stature / kStep);
+  std::size_t ahead = static_cast<std::size_t>(0.045 * marks.stature / kBetweenSections);
   std::vector<Section> sections(ahead, all.front());
   for (std::size_t k = 0; k < ahead; ++k)
-    sections[k].center -= static_cast<double>(ahead - k) * kStep * all.front().axis;
+    sections[k].center -= static_cast<double>(ahead - k) * kBetweenSections * all.front().axis;
   sections.insert(sections.end(), all.begin(), all.begin() + static_cast<std::ptrdiff_t>(*wrist) + 1);
   *wrist += ahead;
   *biceps = ahead + (*wrist - ahead) / 8;

@@ -9,7 +9,8 @@
 namespace garment::body {
 namespace {
 
-constexpr double kPi = portable::kPi;
+using portable::kPi;
+
 constexpr double kThighGap = 0.012;    // m, from the plane of symmetry to a thigh, at a stature of 1.68 m
 constexpr double kStance = 0.045;      // tangent of the angle by which a leg stands out
 constexpr double kArmAngle = 40;       // degrees from the vertical

@@ -7,9 +7,9 @@
 namespace garment::body {
 namespace {
 
-constexpr double kStep = 0.005;     // m, of the scans
-constexpr double kMinLeg = 0.0015;  // m^2, area below which a section is no leg
-constexpr double kLeastStature = 0.7, kMostStature = 2.6;
+constexpr double kScanStep = 0.005;  // m, of the scans
+constexpr double kMinLeg = 0.0015;   // m^2, area below which a section is no leg
+constexpr double kLeastMeshStature = 0.7, kMostMeshStature = 2.6;
 
 struct LegPair {
   double left = 0, right = 0;  // x of their centroids
@@ -40,7 +40,7 @@ double half_breadth(const Loop& loop, double center_x) {
 /// An arm that hangs close to the trunk grows into it by little and little: the armpit is where its own loop ends, going up.
 bool find_hanging_arms(const TriangleMesh& mesh, Landmarks& marks, double low, double high) {
   constexpr double kLeastArm = 0.0015, kMostArm = 0.02;  // m^2
-  for (double y = high; y > low; y -= kStep) {
+  for (double y = high; y > low; y -= kScanStep) {
     const std::optional<Loop> trunk = trunk_at(mesh, marks.center_x, y);
     if (!trunk) continue;
     const double half = half_breadth(*trunk, marks.center_x);
@@ -99,11 +99,11 @@ std::optional<Landmarks> find_landmarks(const TriangleMesh& mesh, std::optional<
   marks.base = low;
   marks.top = high;
   marks.stature = stature.value_or(high - low);
-  if (!(marks.stature >= kLeastStature && marks.stature <= kMostStature)) return none(Lacking::stature);
+  if (!(marks.stature >= kLeastMeshStature && marks.stature <= kMostMeshStature)) return none(Lacking::stature);
   std::optional<LegPair> legs = legs_at(mesh, marks.height(0.30));
   if (!legs || legs->left - legs->right < 0.03 * marks.stature) return none(Lacking::legs);
   marks.center_x = 0.5 * (legs->left + legs->right);
-  for (double y = marks.height(0.36); y < marks.height(0.60); y += kStep) {
+  for (double y = marks.height(0.36); y < marks.height(0.60); y += kScanStep) {
     std::optional<Loop> trunk = trunk_at(mesh, marks.center_x, y);
     if (trunk && std::fabs(loop_centroid(*trunk).x() - marks.center_x) < 0.03 * marks.stature) {
       marks.crotch = y;

@@ -26,6 +26,8 @@ Findings slash(Panel& panel, const std::string& line, double at_start, double at
 void scale(Panel& panel, double factor_x, double factor_y);
 
 namespace detail {
+constexpr double kOnEdge = 1e-5;  // m, a line that ends this near an edge ends on it
+
 /// Gives `edge` another course; `place` says where an arc length of the old one went. What stands on it follows.
 void redraw(Panel& panel, Edge& edge, const geometry::Curve& course, const std::function<double(double)>& place);
 }  // namespace detail

@@ -8,7 +8,7 @@
 namespace garment::design {
 namespace {
 
-constexpr double kOnEdge = 1e-5;  // m, a line that ends this near an edge ends on it
+using detail::kOnEdge;
 
 bool named(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();

@@ -18,9 +18,9 @@
 namespace garment::design {
 namespace {
 
+using detail::kOnEdge;
 using geometry::Curve;
 
-constexpr double kOnEdge = 1e-5;  // m
 constexpr double kNothing = 1e-9;  // m
 
 /// A place on the outline.

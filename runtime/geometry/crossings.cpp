@@ -22,8 +22,6 @@ constexpr std::size_t kMaxPairs = 2'000'000;
 constexpr std::size_t kMostStretches = 64;  // between neighbouring points that are looked at
 constexpr std::size_t kMaxGuesses = 4'000;
 
-double cross(const Point2& a, const Point2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
 struct Box {
   Point2 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   Point2 high{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};

@@ -9,8 +9,6 @@
 namespace garment::geometry {
 namespace {
 
-double cross(const Point2& a, const Point2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
 Point2 rotated(const Point2& v, double angle) {
   double c = portable::cos(angle), s = portable::sin(angle);
   return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};

@@ -9,6 +9,9 @@ namespace garment::geometry {
 
 using Point2 = Eigen::Vector2d;
 
+/// Of two vectors of the plane: positive where `b` lies to the left of `a`.
+inline double cross(const Point2& a, const Point2& b) { return a.x() * b.y() - a.y() * b.x(); }
+
 struct Line {};
 /// One control point.
 struct Quadratic {

@@ -12,7 +12,6 @@ constexpr double kTolerance = 1e-6;  // m
 constexpr double kMeets = 1e-7;      // m
 constexpr int kMaxDepth = 10;
 
-double cross(const Point2& a, const Point2& b) { return a.x() * b.y() - a.y() * b.x(); }
 Point2 left_of(const Point2& t) { return {-t.y(), t.x()}; }
 
 class BezierOffset {

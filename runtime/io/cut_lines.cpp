@@ -8,16 +8,15 @@ namespace garment::io {
 namespace {
 
 using design::Point2;
+using geometry::cross;
 
-constexpr double kChord = 5e-5;  // m
-constexpr double kMitre = 2;     // widths
-
-double cross(const Point2& u, const Point2& v) { return u.x() * v.y() - u.y() * v.x(); }
+constexpr double kCutChord = 5e-5;  // m
+constexpr double kMitre = 2;        // widths
 
 /// The edge moved outwards; `side` is 1 where outwards is left.
 CutLine moved(const design::Edge& edge, double side) {
   std::vector<double> at;
-  CutLine line = edge.curve.polyline(kChord, &at);
+  CutLine line = edge.curve.polyline(kCutChord, &at);
   for (std::size_t k = 0; k < line.size(); ++k) {
     const Point2 t = edge.curve.tangent_at(at[k]);
     line[k] += side * edge.allowance * Point2(-t.y(), t.x());

@@ -10,15 +10,15 @@ using design::EdgePart;
 using design::Panel;
 using design::Point2;
 
-constexpr double kSamePlace = 1e-6;  // m along an edge
-constexpr int kRounds = 8;           // divisions carried from seam to seam
+constexpr double kSamePosition = 1e-6;  // m along an edge
+constexpr int kRounds = 8;              // divisions carried from seam to seam
 
 using Marks = std::vector<double>;  // ascending arc lengths
 
 void add_mark(Marks& marks, double at) {
   const auto next = std::lower_bound(marks.begin(), marks.end(), at);
-  if (next != marks.end() && *next - at < kSamePlace) return;
-  if (next != marks.begin() && at - *std::prev(next) < kSamePlace) return;
+  if (next != marks.end() && *next - at < kSamePosition) return;
+  if (next != marks.begin() && at - *std::prev(next) < kSamePosition) return;
   marks.insert(next, at);
 }
 
@@ -87,7 +87,7 @@ class Divider {
     for (std::size_t d = 0; d < panel.darts.size(); ++d) {
       const design::EdgeDart& dart = panel.darts[d];
       const int edge = outline_edge(panel, dart.edge);
-      if (edge < 0 || dart.width <= kSamePlace) continue;
+      if (edge < 0 || dart.width <= kSamePosition) continue;
       const auto e = static_cast<std::size_t>(edge);
       mouths[e].push_back({std::max(0.0, dart.at - dart.width / 2),
                            std::min(panel.edges[e].curve.length(), dart.at + dart.width / 2),
@@ -127,7 +127,7 @@ class Divider {
       std::vector<Stretch> of_part;
       const Marks& at = marks(part.panel, part.edge);
       for (std::size_t i = 0; i + 1 < at.size(); ++i) {
-        if (at[i] < low - kSamePlace || at[i + 1] > high + kSamePlace) continue;
+        if (at[i] < low - kSamePosition || at[i + 1] > high + kSamePosition) continue;
         if (in_mouth(part.panel, part.edge, (at[i] + at[i + 1]) / 2)) continue;
         of_part.push_back(
             {part.panel, part.edge, at[i], at[i + 1], (at[i + 1] - at[i]) / side.fullness_of(k)});
@@ -156,7 +156,7 @@ class Divider {
       at += from[i].sewn * scale;
       double start = 0;
       for (const Stretch& s : to) {
-        if (at > start + kSamePlace && at < start + s.sewn - kSamePlace) {
+        if (at > start + kSamePosition && at < start + s.sewn - kSamePosition) {
           Marks& list = marks(s.panel, s.edge);
           const std::size_t before = list.size();
           add_mark(list, s.from + (s.to - s.from) * (at - start) / s.sewn);
@@ -209,8 +209,8 @@ class Divider {
     const double low = std::min(s.from, s.to), high = std::max(s.from, s.to);
     for (std::size_t i = 0; i < panel.edges.size(); ++i) {
       const CutEdge& e = panel.edges[i];
-      if (e.edge == s.edge && e.dart < 0 && std::fabs(e.from - low) < kSamePlace &&
-          std::fabs(e.to - high) < kSamePlace)
+      if (e.edge == s.edge && e.dart < 0 && std::fabs(e.from - low) < kSamePosition &&
+          std::fabs(e.to - high) < kSamePosition)
         return static_cast<int>(i);
     }
     return -1;

@@ -108,9 +108,9 @@ class Lines {
   std::size_t number_ = 0;
 };
 
-class Parser {
+class DxfParser {
  public:
-  Parser(std::string_view bytes, const DxfLimits& limits, PatternReport& report)
+  DxfParser(std::string_view bytes, const DxfLimits& limits, PatternReport& report)
       : lines_(bytes), limits_(limits), report_(report) {}
 
   bool parse() {
@@ -469,7 +469,7 @@ std::optional<DxfDocument> parse_dxf(std::string_view bytes, const DxfLimits& li
     return std::nullopt;
   }
   if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);
-  Parser parser(bytes, limits, report);
+  DxfParser parser(bytes, limits, report);
   if (!parser.parse()) return std::nullopt;
   return parser.take();
 }

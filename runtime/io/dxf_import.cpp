@@ -34,9 +34,9 @@ void scale(DxfPiece& piece, double factor) {
     for (Point2& p : list) p *= factor;
 }
 
-class Reader {
+class DxfReader {
  public:
-  explicit Reader(const DxfOptions& options) : options_(options) {}
+  explicit DxfReader(const DxfOptions& options) : options_(options) {}
 
   DxfResult read(std::string_view bytes) {
     DxfResult result;
@@ -210,6 +210,8 @@ class Reader {
 
 }  // namespace
 
-DxfResult read_dxf(std::string_view bytes, const DxfOptions& options) { return Reader(options).read(bytes); }
+DxfResult read_dxf(std::string_view bytes, const DxfOptions& options) {
+  return DxfReader(options).read(bytes);
+}
 
 }  // namespace garment::io

@@ -18,12 +18,12 @@ using design::Panel;
 constexpr std::size_t kMostPoints = 20000;  // of one piece's outline
 constexpr std::size_t kMostInside = 4096;   // lines, holes and points of one piece
 constexpr double kOnFold = 5e-4;            // m
-constexpr double kDouble = 1e-6;            // m
+constexpr double kAtFold = 1e-6;            // m
 constexpr double kSquare = 0.0436;          // sine of 2.5 degrees off the square, 5 degrees of corner
 constexpr double kNotchReach = 5e-3;        // m from the outline, beside the allowance
 constexpr double kNotchCorner = 5e-4;       // m; nearer to an edge's end it says nothing
 constexpr double kInside = 1.5e-4;          // m; lines keep this far from the outline but for their ends
-constexpr double kMinArea = 1e-6;           // m^2
+constexpr double kLeastPieceArea = 1e-6;    // m^2
 
 /// The line through a and b, and mirroring in it.
 struct Fold {
@@ -48,7 +48,7 @@ class PieceReader {
         outline_of(stitch, piece_.points[DxfLayer::turn_points], piece_.points[DxfLayer::curve_points]);
     double area = 0;
     for (const design::Edge& edge : panel.edges) area += edge.curve.area_term();
-    if (panel.edges.size() < 2 || !std::isfinite(area) || area < kMinArea) {
+    if (panel.edges.size() < 2 || !std::isfinite(area) || area < kLeastPieceArea) {
       skip("encloses no area");
       return std::nullopt;
     }
@@ -196,7 +196,7 @@ class PieceReader {
       const Point2& p = cut_.points[i].point;
       const Point2 on = cut_.points[(i + 1) % n].point - p;
       // Square to the fold on one side is straight on to the other.
-      if (std::fabs(fold_->side(p)) <= kDouble && std::fabs(on.normalized().dot(fold_->along)) > kSquare)
+      if (std::fabs(fold_->side(p)) <= kAtFold && std::fabs(on.normalized().dot(fold_->along)) > kSquare)
         piece_.points[DxfLayer::turn_points].push_back(p);
     }
     for (DxfLayer layer : {DxfLayer::internal, DxfLayer::cutout, DxfLayer::drill, DxfLayer::notches}) {
@@ -324,7 +324,7 @@ class PieceReader {
         return touches(ring, other) || touches(other, ring);
       });
       if (!c.closed || ++taken > kMostInside || !apart || !lies_inside(ring, false) ||
-          std::fabs(course_area(c)) < kMinArea) {
+          std::fabs(course_area(c)) < kLeastPieceArea) {
         ++lost;
         continue;
       }

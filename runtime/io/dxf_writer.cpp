@@ -19,10 +19,10 @@ namespace {
 using design::Panel;
 using Polyline = std::vector<Point2>;
 
-constexpr double kChord = 3e-6;  // m
-constexpr double kText = 8;      // mm
-constexpr double kGap = 30;      // mm between the pieces as inserted
-constexpr double kCorner = 20;   // degrees, of a cut line
+constexpr double kDxfChord = 3e-6;  // m
+constexpr double kText = 8;         // mm
+constexpr double kPieceGap = 30;    // mm between the pieces as inserted
+constexpr double kCutCorner = 20;   // degrees, of a cut line
 constexpr const char* kSize = "BASE";
 
 /// ASCII of one line: other characters as \U+XXXX, or ? beyond the first plane.
@@ -97,7 +97,7 @@ struct Drawn {
 Drawn drawn(const std::vector<design::Edge>& edges) {
   Drawn out;
   for (const design::Edge& edge : edges) {
-    const Polyline points = edge.curve.polyline(kChord);
+    const Polyline points = edge.curve.polyline(kDxfChord);
     for (std::size_t i = 0; i + 1 < points.size(); ++i) {
       out.points.push_back(points[i]);
       out.corner.push_back(i == 0);
@@ -116,7 +116,7 @@ Drawn drawn(const CutLine& line) {
   for (std::size_t i = 0; i < n; ++i) {
     const Point2 u = out.points[i] - out.points[(i + n - 1) % n], v = out.points[(i + 1) % n] - out.points[i];
     const double angle = portable::atan2(u.x() * v.y() - u.y() * v.x(), u.dot(v)) * (180 / portable::kPi);
-    out.corner.push_back(std::fabs(angle) > kCorner);
+    out.corner.push_back(std::fabs(angle) > kCutCorner);
   }
   return out;
 }
@@ -145,7 +145,7 @@ class PieceWriter {
     write_notches();
     write_grain();
     for (const design::Edge& line : panel_.lines)
-      out_.polyline(DxfLayer::internal, line.curve.polyline(kChord), false);
+      out_.polyline(DxfLayer::internal, line.curve.polyline(kDxfChord), false);
     write_darts();
     for (const design::Hole& hole : panel_.holes)
       out_.polyline(DxfLayer::cutout, drawn(hole_edges(panel_, hole)).points, true);
@@ -309,7 +309,7 @@ DxfText write_dxf(const design::Garment& garment) {
     out.record("INSERT", DxfLayer::boundary);
     out.pair(2, piece.name);
     out.point(10, Point2(x, 0) - piece.low);
-    x += piece.size.x() + 1e-3 * kGap;
+    x += piece.size.x() + 1e-3 * kPieceGap;
   }
   out.pair(0, "ENDSEC");
   out.pair(0, "EOF");

@@ -56,9 +56,9 @@ bool is_letter(char c) {
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 /// Recursive descent; the first mistake stays in `error_` and everything ends.
-class Parser {
+class FormulaParser {
  public:
-  Parser(std::string_view text, const FormulaNames& names) : text_(text), names_(names) {}
+  FormulaParser(std::string_view text, const FormulaNames& names) : text_(text), names_(names) {}
 
   FormulaResult run() {
     const double value = sum();
@@ -188,7 +188,7 @@ class Parser {
 }  // namespace
 
 FormulaResult compute_formula(std::string_view text, const FormulaNames& names) {
-  return Parser(text, names).run();
+  return FormulaParser(text, names).run();
 }
 
 }  // namespace garment::io

@@ -17,9 +17,10 @@ namespace {
 constexpr double kSizeStep = 0.02, kHeightStep = 0.06;  // m
 constexpr std::size_t kMaxMeasurements = 10'000;
 
-class Reader {
+class MeasurementsReader {
  public:
-  Reader(std::string_view text, const MeasurementOptions& options, const std::string& name, OriginId origin)
+  MeasurementsReader(std::string_view text, const MeasurementOptions& options, const std::string& name,
+                     OriginId origin)
       : text_(text), options_(options), name_(name), origin_(origin) {}
 
   MeasurementsResult run() {
@@ -109,9 +110,9 @@ class Reader {
   FormulaResult value_of(std::size_t k, int depth) {
     Entry& e = entries_[k];
     if (e.state == Entry::State::done) return {e.value, ""};
-    if (e.state == Entry::State::running || depth > kMaxDepth)
-      return {std::nullopt, depth > kMaxDepth ? "more than 60 measures that need each other"
-                                              : fmt::format("`{}` is made from itself", e.name)};
+    if (e.state == Entry::State::running || depth > kMaxNesting)
+      return {std::nullopt, depth > kMaxNesting ? "more than 60 measures that need each other"
+                                                : fmt::format("`{}` is made from itself", e.name)};
     e.state = Entry::State::running;
     const FormulaResult made = compute_formula(
         e.node.attribute("value").as_string(), [&](const std::string& other) -> FormulaResult {
@@ -180,7 +181,7 @@ class Reader {
     }
   }
 
-  static constexpr int kMaxDepth = 60;
+  static constexpr int kMaxNesting = 60;
 
   std::string_view text_;
   const MeasurementOptions& options_;
@@ -197,7 +198,7 @@ class Reader {
 
 MeasurementsResult read_measurements(std::string_view text, const MeasurementOptions& options,
                                      const std::string& name, OriginId origin) {
-  return Reader(text, options, name, origin).run();
+  return MeasurementsReader(text, options, name, origin).run();
 }
 
 }  // namespace garment::io

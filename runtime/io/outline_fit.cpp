@@ -11,6 +11,7 @@ namespace garment::io {
 namespace {
 
 using design::Point2;
+using geometry::cross;
 
 constexpr double kMeet = 1e-4;                               // m; ends as near are one
 constexpr double kDouble = 1e-6;                             // m; nearer points are drawn twice
@@ -23,8 +24,6 @@ constexpr double kLonger = 3;                                // times its neighb
 constexpr std::size_t kMostThrough = 64;
 constexpr double kAreaAgrees = 2e-3;
 constexpr std::size_t kMostPairs = 50'000'000;
-
-double cross(const Point2& u, const Point2& v) { return u.x() * v.y() - u.y() * v.x(); }
 
 DxfCourse turned(const DxfCourse& course) {
   DxfCourse out{{}, course.closed};

@@ -13,18 +13,14 @@
 namespace garment::io {
 namespace {
 
-constexpr double kChord = 5e-5;      // m, error of drawn curves
 constexpr double kMargin = 19;       // mm about a piece, for the letters of its seams
 constexpr double kTagRadius = 5.4;   // mm
 constexpr double kNotch = 6;         // mm
 constexpr double kMinNamed = 0.018;  // m, shorter edges carry no name
 
-const Pen kCut{"#1b1d22", 0.7, "", "none"};
 const Pen kFold{"#7a7f89", 0.35, "6 2 1 2", "none"};
 const Pen kMouth{"#9aa0aa", 0.3, "2 2", "none"};
-const Pen kMark{"#1b1d22", 0.5, "", "none"};
 
-Point mm_of(const design::Point2& p) { return 1000 * p; }
 Point left_of(const Point& t) { return {-t[1], t[0]}; }
 
 /// Where the line through p along d crosses the closed polygon: ascending parameters, in units of d.

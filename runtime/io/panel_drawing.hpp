@@ -9,6 +9,17 @@
 
 namespace garment::io {
 
+constexpr double kChord = 5e-5;  // m, error of drawn curves
+inline const Pen kCut{"#1b1d22", 0.7, "", "none"};
+inline const Pen kMark{"#1b1d22", 0.5, "", "none"};
+
+inline Point mm_of(const design::Point2& p) { return 1000 * p; }
+inline std::vector<Point> mm_of(const std::vector<design::Point2>& points) {
+  std::vector<Point> out;
+  for (const design::Point2& p : points) out.push_back(mm_of(p));
+  return out;
+}
+
 /// A stretch of an edge that a seam takes; both sides of the seam carry the same letter.
 struct SeamTag {
   std::string letter;

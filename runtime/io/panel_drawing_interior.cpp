@@ -8,24 +8,13 @@
 namespace garment::io {
 namespace {
 
-constexpr double kChord = 5e-5;  // m
-const Pen kCut{"#1b1d22", 0.7, "", "none"};
 const Pen kAllowance{"#1b1d22", 0.4, "", "none"};
 const Pen kRim{"#1b1d22", 0.7, "", "#ffffff"};
 const Pen kLine{"#3c6e8f", 0.4, "5 2", "none"};
 const Pen kSlit{"#b03a2e", 0.6, "", "none"};
-const Pen kMark{"#1b1d22", 0.5, "", "none"};
 const Pen kFoldLine{"#6a4c93", 0.4, "4 1.5", "none"};
 const Pen kArrow{"#6a4c93", 0.4, "", "none"};
 const char* const kName = "#555b66";
-
-Point mm_of(const design::Point2& p) { return 1000 * p; }
-
-std::vector<Point> mm_of(const std::vector<design::Point2>& points) {
-  std::vector<Point> out;
-  for (const design::Point2& p : points) out.push_back(mm_of(p));
-  return out;
-}
 
 /// Label beside a curve's middle.
 Point beside(const geometry::Curve& curve, double share) {

@@ -12,6 +12,7 @@
 #include "runtime/io/pattern_document.hpp"
 #include "runtime/io/pattern_json.hpp"
 #include "runtime/io/pattern_names.hpp"
+#include "runtime/io/pattern_stitch.hpp"
 #include "runtime/io/pattern_writer.hpp"
 
 namespace garment::io {
@@ -20,9 +21,8 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-constexpr std::size_t kMost = 4096;
-constexpr double kPlainSeam = 2e-3;  // m; the sides of a seam may differ by this much
-constexpr double kDegrees = 180 / portable::kPi;
+constexpr std::size_t kMostItems = 4096;
+constexpr double kDegreesPerRadian = 180 / portable::kPi;
 
 /// Calls `visit(key, number)` for every figure of a fabric, SI.
 template <class Fabric, class Visit>
@@ -78,7 +78,7 @@ ordered_json panel_json(const design::Garment& garment, std::size_t p, const Cut
   if (panel.fabric >= 0 && panel.fabric < static_cast<int>(garment.fabrics.size()))
     out["fabric"] = garment.fabrics[static_cast<std::size_t>(panel.fabric)].name;
   if (panel.grain_angle != 0)
-    out["grain"] = std::round((written.back ? -1 : 1) * panel.grain_angle * kDegrees * 1e10) / 1e10;
+    out["grain"] = std::round((written.back ? -1 : 1) * panel.grain_angle * kDegreesPerRadian * 1e10) / 1e10;
   ordered_json names = ordered_json::object(), notches = ordered_json::array();
   std::set<std::string> taken;
   for (std::size_t k = 0; k < cut.edges.size(); ++k) {
@@ -125,10 +125,10 @@ ordered_json block(const design::Garment& garment, const CutGarment& cut, const 
 }
 
 /// Reads the parts of a block, each on its own.
-class Reader {
+class ExtensionReader {
  public:
-  Reader(const std::vector<FilePanel>& files, const std::vector<std::size_t>& numbers,
-         design::Garment& garment, PatternReport& report)
+  ExtensionReader(const std::vector<FilePanel>& files, const std::vector<std::size_t>& numbers,
+                  design::Garment& garment, PatternReport& report)
       : files_(files), numbers_(numbers), garment_(garment), report_(report) {}
 
   void read(const json& value) {
@@ -140,7 +140,7 @@ class Reader {
         if (const json* panel = member(*panels, files_[p].file_name.c_str())) read_panel(*panel, p);
     }
     if (const json* seams = member(value, "seams")) {
-      if (!seams->is_array() || seams->size() > kMost)
+      if (!seams->is_array() || seams->size() > kMostItems)
         return refuse("`seams`", *seams, "a list of at most 4096");
       last_.clear();
       for (std::size_t s = 0; s < numbers_.size(); ++s) seam_of_[numbers_[s]] = s;
@@ -212,11 +212,11 @@ class Reader {
         if (*fabric == garment_.fabrics[f].name) panel.fabric = static_cast<int>(f);
     if (const json* grain = member(value, "grain");
         grain && grain->is_number() && std::fabs(grain->get<double>()) <= 360)
-      panel.grain_angle = (files_[p].back ? -1 : 1) * grain->get<double>() / kDegrees;
+      panel.grain_angle = (files_[p].back ? -1 : 1) * grain->get<double>() / kDegreesPerRadian;
     if (const json* names = member(value, "edges"); names && names->is_object()) name_edges(*names, p);
     const json* notches = member(value, "notches");
     if (!notches) return;
-    if (!notches->is_array() || notches->size() > kMost)
+    if (!notches->is_array() || notches->size() > kMostItems)
       return refuse("`notches`", *notches, "a list of at most 4096");
     last_.clear();
     std::set<std::string> taken;
@@ -369,7 +369,8 @@ std::vector<std::string> not_written(const design::Garment& garment, const CutGa
 void read_extension(const json& root, const std::vector<FilePanel>& files,
                     const std::vector<std::size_t>& numbers, design::Garment& garment,
                     PatternReport& report) {
-  if (const json* value = member(root, kExtension)) Reader(files, numbers, garment, report).read(*value);
+  if (const json* value = member(root, kExtension))
+    ExtensionReader(files, numbers, garment, report).read(*value);
 }
 
 }  // namespace garment::io

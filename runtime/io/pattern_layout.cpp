@@ -116,17 +116,17 @@ std::optional<int> whole(const json& value, int low, int high) {
   return static_cast<int>(number);
 }
 
-constexpr int kMost = 4096;
+constexpr int kMostEdges = 4096;
 
 bool read_edges(const json& list, PanelLayout& layout) {
   for (const json& item : list) {
     if (!item.is_array() || item.size() < 3) return false;
-    auto start = whole(item[0], 0, kMost), end = whole(item[1], 0, kMost),
-         outline = whole(item[2], -1, kMost);
+    auto start = whole(item[0], 0, kMostEdges), end = whole(item[1], 0, kMostEdges),
+         outline = whole(item[2], -1, kMostEdges);
     if (!start || !end || !outline) return false;
     layout.edges.push_back({*start, *end, *outline, item.size() > 3});
   }
-  return layout.edges.size() <= static_cast<std::size_t>(kMost);
+  return layout.edges.size() <= static_cast<std::size_t>(kMostEdges);
 }
 
 /// Puts the members of `sparse`, numbered by their keys, into `list`.
@@ -146,7 +146,7 @@ std::optional<PanelLayout> panel_of_line(const json& line) {
   layout.back = back && *back == true;
   if (const json* edges = member(line, "edges")) {
     const json* count = member(line, "vertices");
-    auto n = count ? whole(*count, 0, kMost + 1) : std::nullopt;
+    auto n = count ? whole(*count, 0, kMostEdges + 1) : std::nullopt;
     if (!edges->is_array() || !n || !read_edges(*edges, layout)) return std::nullopt;
     for (const EdgeLayout& e : layout.edges)
       if (e.start >= *n || e.end >= *n) return std::nullopt;

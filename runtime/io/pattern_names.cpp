@@ -16,14 +16,14 @@ bool contains(std::string_view text, std::string_view part) {
   return std::search(text.begin(), text.end(), part.begin(), part.end(), same) != text.end();
 }
 
-enum class Kind { body, sleeve, hood, band };
+enum class PanelKind { body, sleeve, hood, band };
 
-Kind kind_of(const design::Panel& panel) {
-  if (panel.label == "arm" || contains(panel.name, "sleeve")) return Kind::sleeve;
-  if (contains(panel.name, "hood") || contains(panel.name, "collar")) return Kind::hood;
+PanelKind kind_of(const design::Panel& panel) {
+  if (panel.label == "arm" || contains(panel.name, "sleeve")) return PanelKind::sleeve;
+  if (contains(panel.name, "hood") || contains(panel.name, "collar")) return PanelKind::hood;
   if (contains(panel.name, "band") || contains(panel.name, "cuff") || panel.name.starts_with("wb"))
-    return Kind::band;
-  return Kind::body;
+    return PanelKind::band;
+  return PanelKind::body;
 }
 
 class Namer {
@@ -93,10 +93,10 @@ class Namer {
 
   std::string free_name(int p, const EdgePlace& edge) const {
     const PanelPlace& panel = place_.panels[p];
-    if (kinds_[p] == Kind::sleeve) return "cuff";
-    if (kinds_[p] == Kind::hood) return "opening";
+    if (kinds_[p] == PanelKind::sleeve) return "cuff";
+    if (kinds_[p] == PanelKind::hood) return "opening";
     double height = (edge.middle.y() - panel.low.y()) / std::max(panel.high.y() - panel.low.y(), 1e-9);
-    if (kinds_[p] == Kind::band) return height > 0.5 ? "upper" : "lower";
+    if (kinds_[p] == PanelKind::band) return height > 0.5 ? "upper" : "lower";
     if (height < 0.3 && !edge.upright()) return "hem";
     if (height < 0.6) return "opening";
     if (!hangs_[place_.panels[p].piece]) return edge.upright() ? "opening" : "waist";
@@ -107,7 +107,7 @@ class Namer {
   bool is_shoulder(int p, const EdgePlace& edge) const {
     const PanelPlace& a = place_.panels[p];
     double height = (edge.middle.y() - a.low.y()) / std::max(a.high.y() - a.low.y(), 1e-9);
-    return kinds_[p] == Kind::body && kinds_[edge.partner_panel] == Kind::body && !edge.upright() &&
+    return kinds_[p] == PanelKind::body && kinds_[edge.partner_panel] == PanelKind::body && !edge.upright() &&
            height > 0.7 && front_and_back(p, edge.partner_panel);
   }
 
@@ -120,16 +120,16 @@ class Namer {
     const PanelPlace& panel = place_.panels[p];
     int q = edge.partner_panel;
     if (q == p) return "tube";
-    Kind a = kinds_[p], b = kinds_[q];
+    PanelKind a = kinds_[p], b = kinds_[q];
     bool upper = edge.middle.y() > panel.center().y();
-    if (a == Kind::sleeve && b == Kind::sleeve) return upper ? "overarm" : "underarm";
-    if (a == Kind::sleeve) return b == Kind::band ? "cuff" : "cap";
-    if (b == Kind::sleeve) return a == Kind::band ? (upper ? "upper" : "lower") : "armhole";
-    if (a == Kind::hood && b == Kind::hood) return "center";
-    if (a == Kind::hood || b == Kind::hood) return "neck";
-    if (a == Kind::band && b == Kind::band) return "side";
-    if (a == Kind::band) return upper ? "upper" : "lower";
-    if (b == Kind::band) return upper || joins_below(q) ? "waist" : "hem";
+    if (a == PanelKind::sleeve && b == PanelKind::sleeve) return upper ? "overarm" : "underarm";
+    if (a == PanelKind::sleeve) return b == PanelKind::band ? "cuff" : "cap";
+    if (b == PanelKind::sleeve) return a == PanelKind::band ? (upper ? "upper" : "lower") : "armhole";
+    if (a == PanelKind::hood && b == PanelKind::hood) return "center";
+    if (a == PanelKind::hood || b == PanelKind::hood) return "neck";
+    if (a == PanelKind::band && b == PanelKind::band) return "side";
+    if (a == PanelKind::band) return upper ? "upper" : "lower";
+    if (b == PanelKind::band) return upper || joins_below(q) ? "waist" : "hem";
     return between_bodies(p, q, edge);
   }
 
@@ -138,7 +138,7 @@ class Namer {
   bool joins_below(int band) const {
     const PanelPlace& place = place_.panels[band];
     return std::any_of(place.edges.begin(), place.edges.end(), [&](const EdgePlace& e) {
-      return e.sewn() && kinds_[e.partner_panel] == Kind::body && e.middle.y() < place.center().y();
+      return e.sewn() && kinds_[e.partner_panel] == PanelKind::body && e.middle.y() < place.center().y();
     });
   }
 
@@ -212,7 +212,7 @@ class Namer {
   design::Garment& garment_;
   const EdgeLabels& labels_;
   GarmentPlace place_;
-  std::vector<Kind> kinds_;
+  std::vector<PanelKind> kinds_;
   std::vector<bool> hangs_;  ///< by piece: it has edges that can only be shoulders
   std::vector<std::vector<std::string>> base_;
 };

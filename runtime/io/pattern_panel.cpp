@@ -19,8 +19,6 @@ using geometry::Point2;
 using nlohmann::json;
 
 constexpr double kSamePoint = 1e-6;  ///< m; nearer points are one
-constexpr double kShortest = 1e-4;   ///< m; what is shorter is no edge, neither here nor in a script
-constexpr double kMinArea = 1e-6;    ///< m^2; less is no panel
 
 struct Ends {
   int start = -1, end = -1;
@@ -130,8 +128,8 @@ class PanelReader {
                                                  limits_, edge_name(i), report_)
                             : Curve::Shape(geometry::Line{});
     if (!shape) return false;
-    if (has_length && (vertices_[*a] - vertices_[*b]).norm() < kShortest)
-      has_length = Curve(vertices_[*a], vertices_[*b], *shape).length() >= kShortest;
+    if (has_length && (vertices_[*a] - vertices_[*b]).norm() < kShortestEdge)
+      has_length = Curve(vertices_[*a], vertices_[*b], *shape).length() >= kShortestEdge;
     if (!has_length)
       report_.warning("G0946", fmt::format("{}: is shorter than 0.1 mm; it is left out", edge_name(i)),
                       "give it two different vertices, or remove it");
@@ -286,10 +284,10 @@ class PanelReader {
   /// Counter-clockwise, face up: a clockwise panel is seen from its back.
   void normalise() {
     double area = signed_area(out_.panel.edges);
-    if (!std::isfinite(area) || std::abs(area) < kMinArea) {
+    if (!std::isfinite(area) || std::abs(area) < kLeastPanelArea) {
       report_.error("G0952",
                     fmt::format("{}: its outline encloses {} cm^2, expected at least {} cm^2", where_,
-                                format_number(std::abs(area) * 1e4, 3), format_number(kMinArea * 1e4)),
+                                format_number(std::abs(area) * 1e4, 3), format_number(kLeastPanelArea * 1e4)),
                     "check the vertices and `properties.units_in_meter`");
       return;
     }

@@ -12,6 +12,9 @@
 
 namespace garment::io {
 
+constexpr double kShortestEdge = 1e-4;    ///< m; what is shorter is no edge, neither here nor in a script
+constexpr double kLeastPanelArea = 1e-6;  ///< m^2; less is no panel
+
 /// What became of edge i of the file.
 struct FileEdge {
   int edge = -1;        ///< index into Panel::edges; -1: dropped because it has no length

@@ -10,7 +10,7 @@
 namespace garment::io {
 namespace {
 
-constexpr double kGap = 8;       // mm between the rooms of two panels
+constexpr double kRoomGap = 8;   // mm between the rooms of two panels
 constexpr double kAlike = 1e-4;  // m, by which the sides of a pair may differ
 
 /// A, B, ... Z, AA, AB, ...
@@ -185,13 +185,13 @@ PatternSheet::PatternSheet(const design::Garment& g, const model::Model* model, 
   for (std::size_t k : order) {
     const Point size = panels_[k].size();
     if (at[0] > 0 && at[0] + size[0] > row_width) {
-      at = Point(0, at[1] + row_height + kGap);
+      at = Point(0, at[1] + row_height + kRoomGap);
       row_height = 0;
     }
     corners_[k] = at;
     row_height = std::max(row_height, size[1]);
     size_ = size_.cwiseMax(Point(at + size));
-    at[0] += size[0] + kGap;
+    at[0] += size[0] + kRoomGap;
   }
 }
 

@@ -14,8 +14,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kPlainSeam = 2e-3;  ///< m; a seam without a relation may differ by this much
-constexpr int kMaxGather = 10;       ///< largest `gather` of the language
+constexpr int kMaxGather = 10;  ///< largest `gather` of the language
 
 class StitchReader {
  public:

@@ -8,6 +8,8 @@
 
 namespace garment::io {
 
+constexpr double kPlainSeam = 2e-3;  ///< m; the sides of a seam without a relation may differ by this much
+
 /// Reads `pattern.stitches` into seams of `panels` (indices as in the vector). The start of the first edge
 /// meets the end of the second, with "right_wrong" its start. The longer side comes first and walks its edge
 /// as drawn; its ratio is the length relation as a script prints it (see stated_ratio). Names are left empty.

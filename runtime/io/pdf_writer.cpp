@@ -14,9 +14,9 @@ namespace {
 
 constexpr PaperSize kPapers[] = {{"A4", 210, 297}, {"A3", 297, 420},  {"A2", 420, 594},
                                  {"A1", 594, 841}, {"A0", 841, 1189}, {"letter", 215.9, 279.4}};
-constexpr double kBorder = 10;   // mm that a printer leaves blank
-constexpr double kOverlap = 10;  // mm that neighbours share
-constexpr double kSquare = 50;   // mm, side of the test square
+constexpr double kUnprinted = 10;   // mm that a printer leaves blank
+constexpr double kOverlap = 10;     // mm that neighbours share
+constexpr double kTestSquare = 50;  // mm, side of the test square
 const Pen kFrame{"#8a8f99", 0.25, "", "none"}, kInk{"#1b1d22", 0.35, "", "none"},
     kGlue{"#b4b8c0", 0.25, "2 2", "none"};
 const char* const kGrey = "#6a707b";
@@ -81,7 +81,7 @@ class PdfPattern {
   PdfPattern(const design::Garment& garment, const model::Model* model, const PaperSize& paper)
       : garment_(garment),
         page_(paper.width, paper.height),
-        window_(page_ - Point(2 * kBorder, 2 * kBorder)),
+        window_(page_ - Point(2 * kUnprinted, 2 * kUnprinted)),
         step_(window_ - Point(kOverlap, kOverlap)),
         sheet_(garment, model, true, row_width()),
         columns_(count(0)),
@@ -116,8 +116,8 @@ class PdfPattern {
 
   void write_cover() {
     file_.add_page(page_);
-    const double left = kBorder + 5, right = page_[0] - kBorder - 5;
-    Point at(left, kBorder + 10);
+    const double left = kUnprinted + 5, right = page_[0] - kUnprinted - 5;
+    Point at(left, kUnprinted + 10);
     letter(at, title(), 8, kBlack, true);
     at[1] += 10;
     letter(at,
@@ -126,11 +126,12 @@ class PdfPattern {
                ". Print at 100 %, without fitting to the page.",
            3.6, kGrey);
     at[1] += 10;
-    box({at, at + Point(kSquare, kSquare)}, kInk);
-    letter(at + Point(kSquare / 2, kSquare / 2 - 4), "50 mm", 5, kBlack, true, Anchor::middle);
-    letter(at + Point(kSquare / 2, kSquare / 2 + 3), "measure this square", 3.2, kGrey, false,
+    box({at, at + Point(kTestSquare, kTestSquare)}, kInk);
+    letter(at + Point(kTestSquare / 2, kTestSquare / 2 - 4), "50 mm", 5, kBlack, true, Anchor::middle);
+    letter(at + Point(kTestSquare / 2, kTestSquare / 2 + 3), "measure this square", 3.2, kGrey, false,
            Anchor::middle);
-    letter(at + Point(kSquare / 2, kSquare / 2 + 8), "before you cut", 3.2, kGrey, false, Anchor::middle);
+    letter(at + Point(kTestSquare / 2, kTestSquare / 2 + 8), "before you cut", 3.2, kGrey, false,
+           Anchor::middle);
     const std::vector<std::string> how = {
         sheet_.has_allowances() ? "Thick lines are stitch lines, thin lines around them cut lines."
                                 : "Lines are stitch lines: add seam allowance.",
@@ -140,8 +141,8 @@ class PdfPattern {
         "Arrows show the grain. Letters in circles: seams, A to A.",
     };
     for (std::size_t k = 0; k < how.size(); ++k)
-      letter(at + Point(kSquare + 10, 6 + 8.0 * static_cast<double>(k)), how[k], 3.6);
-    at[1] += kSquare + 14;
+      letter(at + Point(kTestSquare + 10, 6 + 8.0 * static_cast<double>(k)), how[k], 3.6);
+    at[1] += kTestSquare + 14;
     write_list(at, left, right);
     write_map(at, right);
   }
@@ -159,9 +160,9 @@ class PdfPattern {
     file_.line({left, at[1]}, {right, at[1]}, kFrame);
     at[1] += 4;
     for (const CutRow& row : cut_list(garment_)) {
-      if (at[1] > page_[1] - kBorder - 30) {  // a garment of very many pieces
+      if (at[1] > page_[1] - kUnprinted - 30) {  // a garment of very many pieces
         file_.add_page(page_);
-        at = Point(left, kBorder + 10);
+        at = Point(left, kUnprinted + 10);
       }
       letter({columns[0], at[1]}, row.piece, 3.8);
       letter({columns[1], at[1]}, row.pair ? "2, a pair" : std::to_string(row.count), 3.8);
@@ -176,7 +177,7 @@ class PdfPattern {
 
   /// The sheet small, with the frames of its tiles.
   void write_map(const Point& at, double right) {
-    const double room = page_[1] - kBorder - 12 - at[1];
+    const double room = page_[1] - kUnprinted - 12 - at[1];
     const Point whole = step_.cwiseProduct(Point(columns_, rows_));
     const double scale = std::min((right - at[0]) / whole[0], (room - 8) / whole[1]);
     if (room < 30 || scale < 0.01) return;
@@ -193,7 +194,7 @@ class PdfPattern {
 
   void write_tile(const std::pair<int, int>& tile) {
     file_.add_page(page_);
-    const Point corner = step_.cwiseProduct(Point(tile.second, tile.first)), border(kBorder, kBorder);
+    const Point corner = step_.cwiseProduct(Point(tile.second, tile.first)), border(kUnprinted, kUnprinted);
     file_.begin_window({border, border + window_}, border - corner);
     sheet_.draw(file_, Point(0, 0));
     file_.end_window();

@@ -20,8 +20,6 @@ namespace garment::io {
 namespace {
 
 constexpr double kInch = 0.0254, kPixel = kInch / 96;  // m
-constexpr double kShortest = 1e-4;                     // m; what is shorter is no edge
-constexpr double kMinArea = 1e-6;                      // m^2
 constexpr std::size_t kFlattened = 24;                 // straight pieces of what was a curve
 
 /// Where a fault stands: the offset of the parser as a line.
@@ -51,24 +49,24 @@ std::optional<double> length_of(std::string_view text) {
     const char* name;
     double metres;
   };
-  constexpr Unit kUnits[] = {{"", kPixel},      {"px", kPixel}, {"mm", 1e-3},
-                             {"cm", 1e-2},      {"in", kInch},  {"pt", kInch / 72},
-                             {"pc", kInch / 6}, {"Q", 2.5e-4},  {"m", 1}};
-  for (const Unit& u : kUnits)
+  constexpr Unit kLengthUnits[] = {{"", kPixel},      {"px", kPixel}, {"mm", 1e-3},
+                                   {"cm", 1e-2},      {"in", kInch},  {"pt", kInch / 72},
+                                   {"pc", kInch / 6}, {"Q", 2.5e-4},  {"m", 1}};
+  for (const Unit& u : kLengthUnits)
     if (text.substr(n) == u.name) return *number * u.metres;
   return std::nullopt;
 }
 
-struct Shape {
+struct SvgShape {
   std::string name;
   std::vector<SvgRun> runs;        ///< closed, m, y up
   std::vector<std::string> edges;  ///< names, of our own drawings
   std::vector<int> counts;         ///< curves of each edge
 };
 
-class Reader {
+class SvgReader {
  public:
-  explicit Reader(const SvgOptions& options) : options_(options) {}
+  explicit SvgReader(const SvgOptions& options) : options_(options) {}
 
   SvgResult read(std::string_view bytes) {
     SvgResult result;
@@ -243,7 +241,7 @@ class Reader {
 
   void add(const pugi::xml_node& node, const std::vector<SvgRun>& runs, const SvgMotion& motion,
            const std::string& group) {
-    Shape shape;
+    SvgShape shape;
     shape.name = name_of(node);
     if (shape.name.empty() || own_) shape.name = group.empty() ? shape.name : group;
     for (const SvgRun& run : runs) {
@@ -255,7 +253,7 @@ class Reader {
       }
       SvgRun placed = moved(run, motion);
       const Point2 gap = placed.curves.back().end() - placed.curves.front().start();
-      if (!placed.closed && gap.norm() > kShortest) {
+      if (!placed.closed && gap.norm() > kShortestEdge) {
         ++open_;
         continue;
       }
@@ -266,7 +264,7 @@ class Reader {
   }
 
   /// "hem 1 side 5": names of edges and of how many curves each is made.
-  static void edge_names(std::string_view text, Shape& shape) {
+  static void edge_names(std::string_view text, SvgShape& shape) {
     while (shape.edges.size() < 4096) {
       const std::size_t start = text.find_first_not_of(' ');
       if (start == std::string_view::npos) return;
@@ -291,14 +289,14 @@ class Reader {
     for (std::size_t i = 0; i < run.curves.size(); ++i) {
       const Curve& curve = run.curves[i];
       Point2 to = curve.end();
-      if ((to - first).norm() < kShortest && i + 1 == run.curves.size()) to = first;
+      if ((to - first).norm() < kShortestEdge && i + 1 == run.curves.size()) to = first;
       const Curve next(from, to, curve.shape());
-      if (next.length() < kShortest) continue;
+      if (next.length() < kShortestEdge) continue;
       out.push_back(next);
       from = to;
     }
     if (!out.empty() && out.back().end() != first) {
-      if ((out.back().end() - first).norm() < kShortest)
+      if ((out.back().end() - first).norm() < kShortestEdge)
         out.back() = Curve(out.back().start(), first, out.back().shape());
       else
         out.emplace_back(out.back().end(), first);
@@ -306,7 +304,7 @@ class Reader {
     return out;
   }
 
-  static std::vector<design::Edge> edges_of(const SvgRun& run, const Shape& shape) {
+  static std::vector<design::Edge> edges_of(const SvgRun& run, const SvgShape& shape) {
     const std::vector<Curve> curves = cleaned(run);
     std::vector<design::Edge> edges;
     std::size_t sum = 0;
@@ -352,13 +350,13 @@ class Reader {
     garment.fabrics.push_back(options_.fabric);
     std::set<std::string> taken{options_.fabric.name};
     std::size_t small = 0;
-    for (const Shape& shape : shapes_) {
+    for (const SvgShape& shape : shapes_) {
       std::vector<std::vector<design::Edge>> loops;
       for (const SvgRun& run : shape.runs) {
         std::vector<design::Edge> edges = edges_of(run, shape);
         const double area = signed_area(edges);
         if (edges.size() < 2 || edges.size() > options_.limits.max_edges || !std::isfinite(area) ||
-            area < kMinArea)
+            area < kLeastPanelArea)
           ++small;
         else
           loops.push_back(std::move(edges));
@@ -441,7 +439,7 @@ class Reader {
 
   const SvgOptions& options_;
   PatternReport report_;
-  std::vector<Shape> shapes_;
+  std::vector<SvgShape> shapes_;
   Point2 page_{0, 0};
   std::size_t curves_ = 0, open_ = 0;
   bool own_ = false;
@@ -449,6 +447,8 @@ class Reader {
 
 }  // namespace
 
-SvgResult read_svg(std::string_view bytes, const SvgOptions& options) { return Reader(options).read(bytes); }
+SvgResult read_svg(std::string_view bytes, const SvgOptions& options) {
+  return SvgReader(options).read(bytes);
+}
 
 }  // namespace garment::io

@@ -9,7 +9,7 @@
 namespace garment::io {
 namespace {
 
-constexpr double kMost = 1e9;  // user units
+constexpr double kFarthest = 1e9;  // user units
 constexpr double kPi = portable::kPi;
 
 class Scanner {
@@ -39,7 +39,7 @@ class Scanner {
     if (!t.empty() && t[0] == '+') t.remove_prefix(1);
     const auto [end, error] =
         std::from_chars(t.data(), t.data() + t.size(), value, std::chars_format::general);
-    if (error != std::errc() || !(std::fabs(value) <= kMost)) return false;
+    if (error != std::errc() || !(std::fabs(value) <= kFarthest)) return false;
     text_.remove_prefix(static_cast<std::size_t>(end - text_.data()));
     return true;
   }

@@ -8,7 +8,7 @@
 namespace garment::io {
 namespace {
 
-constexpr double kBorder = 20;  // mm
+constexpr double kPageMargin = 20;  // mm
 
 void draw_scale_bar(Paper& paper, const Point& at) {
   const Pen pen{"#1b1d22", 0.4, "", "none"};
@@ -36,11 +36,11 @@ Point write_lines(Paper& paper, Point at, const std::vector<std::string>& lines,
 std::string write(const design::Garment& g, const model::Model* model) {
   const PatternSheet sheet(g, model, false);
   SvgPaper paper;
-  const Point origin(kBorder, kBorder + 22);
+  const Point origin(kPageMargin, kPageMargin + 22);
   const std::string title = g.title.empty() ? "pattern" : g.title;
-  paper.text({kBorder, kBorder + 6}, title, {11, Anchor::start, 0, true, "#1b1d22"});
+  paper.text({kPageMargin, kPageMargin + 6}, title, {11, Anchor::start, 0, true, "#1b1d22"});
   sheet.draw(paper, origin);
-  Point at(kBorder, origin[1] + sheet.size()[1] + 14);
+  Point at(kPageMargin, origin[1] + sheet.size()[1] + 14);
   draw_scale_bar(paper, at);
   paper.text(at + Point(125, 2),
              sheet.has_allowances() ? "Thick outlines are stitch lines, thin ones outside cut lines. Lengths in mm."
@@ -51,7 +51,7 @@ std::string write(const design::Garment& g, const model::Model* model) {
   at = write_lines(paper, at, seam_lines(g), width);
   at[1] += 5;
   at = write_lines(paper, at, cut_lines_of(g), width);
-  return paper.finish(Point(width + 2 * kBorder, at[1] + kBorder), title);
+  return paper.finish(Point(width + 2 * kPageMargin, at[1] + kPageMargin), title);
 }
 
 }  // namespace

@@ -12,12 +12,12 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kLeast = 0.55;    // of h: least distance of border particles
-constexpr double kMost = 1.35;     // of h: largest one
-constexpr double kReach = 3.2;     // of h: farthest candidate looked at
-constexpr double kCollapse = 0.2;  // of h: a stretch shorter than this on all its sides becomes a point
-constexpr double kReward = 0.15;   // of a particle on a grid line, in the cost's own measure
-constexpr double kPenalty = 1e4;   // of a step under kLeast
+constexpr double kLeastSpacing = 0.55;    // of h: least distance of border particles
+constexpr double kLargestSpacing = 1.35;  // of h: largest one
+constexpr double kFarthestTried = 3.2;    // of h: farthest candidate looked at
+constexpr double kCollapse = 0.2;         // of h: a stretch shorter than this on all its sides becomes a point
+constexpr double kReward = 0.15;          // of a particle on a grid line, in the cost's own measure
+constexpr double kPenalty = 1e4;          // of a step under kLeastSpacing
 
 /// Where a piece crosses the grid lines: position on the piece, and how squarely (square of the sine).
 std::vector<std::array<double, 2>> grid_crossings(const Piece& piece, const GridFrame& frame) {
@@ -72,8 +72,8 @@ int steps_for(double x, double& cost) {
   int best = 1;
   for (int k = std::max(1, static_cast<int>(x)); k <= static_cast<int>(x) + 1; ++k) {
     double step = x / k, c = k * (step - 1) * (step - 1) / step;
-    if (step < kLeast) c += kPenalty * (1 + kLeast - step);
-    if (step > kMost) c += 10 * (step - kMost);
+    if (step < kLeastSpacing) c += kPenalty * (1 + kLeastSpacing - step);
+    if (step > kLargestSpacing) c += 10 * (step - kLargestSpacing);
     if (c < cost) {
       cost = c;
       best = k;
@@ -129,8 +129,8 @@ std::vector<double> choose_fractions(std::vector<std::array<double, 2>> candidat
     bool reached = false;  // without any gap under the least
     for (std::size_t i = j; i-- > 0;) {
       double x = (nodes[j][0] - nodes[i][0]) * length, cost;
-      if (x > kReach && reached) break;
-      reached = reached || (x >= kLeast && best[i] < kPenalty / 2);
+      if (x > kFarthestTried && reached) break;
+      reached = reached || (x >= kLeastSpacing && best[i] < kPenalty / 2);
       steps_for(x, cost);
       cost += best[i] - kReward * nodes[j][1];
       if (cost < best[j]) {

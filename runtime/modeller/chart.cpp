@@ -10,9 +10,8 @@ namespace garment::modeller {
 namespace {
 
 using Eigen::Vector2d;
+using geometry::cross;
 using model::Index;
-
-double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// A side of the developed region: triangle `t` lies beyond it.
 struct Front {

@@ -12,7 +12,7 @@ using design::Placement;
 using Eigen::Vector3d;
 using model::Index;
 
-constexpr double kReach = 0.35;          // m, how far from the surface it is looked for
+constexpr double kSearchReach = 0.35;    // m, how far from the surface it is looked for
 constexpr double kPanelGap = 5e-3;       // m
 constexpr double kPanelStep = 5e-3;      // m
 constexpr double kMostPanelMove = 0.12;  // m
@@ -40,10 +40,10 @@ Vector3d mean_place(const model::Model& model, std::size_t panel, const std::vec
   return n > 0 ? Vector3d(sum / n) : sum;
 }
 
-/// Distance from the body, at most kReach.
+/// Distance from the body, at most kSearchReach.
 double distance(const body::Body& body, const Vector3d& p) {
-  auto hit = body.closest(p, kReach);
-  return hit ? hit->distance : kReach;
+  auto hit = body.closest(p, kSearchReach);
+  return hit ? hit->distance : kSearchReach;
 }
 
 /// Point of a chain of sections at arc length `s` from its start, carried on straight at the end.

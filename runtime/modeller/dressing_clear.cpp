@@ -15,11 +15,11 @@ namespace {
 using Eigen::Vector3d;
 using model::Index;
 
-constexpr double kReach = 0.3;     // m, how deep in the body a point may lie
-constexpr double kGap = 4e-3;      // m, to which what pierces is pushed out
-constexpr double kSample = 8e-3;   // m, between the points looked at on a triangle
-constexpr int kMostSamples = 40;   // along an edge
-constexpr double kSideGap = 1e-3;  // m, of one leg's cloth from the middle
+constexpr double kDeepest = 0.3;      // m, how deep in the body a point may lie
+constexpr double kGap = 4e-3;         // m, to which what pierces is pushed out
+constexpr double kSampleStep = 8e-3;  // m, between the points looked at on a triangle
+constexpr int kMostSamples = 40;      // along an edge
+constexpr double kSideGap = 1e-3;     // m, of one leg's cloth from the middle
 constexpr int kMostPushes = 60;
 constexpr int kFollowSweeps = 4;       // Jacobi sweeps by which neighbours follow, after each push
 constexpr double kMostPerPush = 0.02;  // m
@@ -93,7 +93,7 @@ class Clearing {
     if (middles_[t].least(middle) > longest + gap) return;
     sound(middle, middles_[t]);
     if (middles_[t].distance > longest + gap) return;
-    const int n = std::clamp(static_cast<int>(longest / kSample), 1, kMostSamples);
+    const int n = std::clamp(static_cast<int>(longest / kSampleStep), 1, kMostSamples);
     std::vector<Sounding>& known = samples_[t];
     if (known.size() != static_cast<std::size_t>((n + 1) * (n + 2) / 2)) known.assign((n + 1) * (n + 2) / 2, {});
     std::size_t k = 0;
@@ -108,8 +108,8 @@ class Clearing {
   }
 
   std::optional<body::SurfacePoint> sound(const Vector3d& p, Sounding& last) const {
-    auto hit = body_.closest(p, kReach);
-    last = {p, hit ? hit->distance : kReach};
+    auto hit = body_.closest(p, kDeepest);
+    last = {p, hit ? hit->distance : kDeepest};
     return hit;
   }
 
@@ -137,7 +137,7 @@ class Clearing {
     if (d.norm() < 1e-3) return std::nullopt;
     d.normalize();
     for (double s = 0; s < 0.15; s += 2e-3)
-      if (auto hit = body_.closest(p + s * d, kReach); !hit || hit->distance > 0)
+      if (auto hit = body_.closest(p + s * d, kDeepest); !hit || hit->distance > 0)
         return Vector3d((s + kGap / 2) * d);
     return std::nullopt;
   }

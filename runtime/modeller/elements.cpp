@@ -12,9 +12,8 @@
 namespace garment::modeller {
 namespace {
 
+using geometry::cross;
 using model::Index;
-
-double cross(const Point2& a, const Point2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 double triangle_area(const PanelMesh& mesh, const std::array<int, 3>& t) {
   return 0.5 * cross(mesh.at[t[1]] - mesh.at[t[0]], mesh.at[t[2]] - mesh.at[t[0]]);

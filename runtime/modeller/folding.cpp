@@ -12,14 +12,12 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector2d;
+using geometry::cross;
 using model::Index;
 using model::Vector3d;
 
-constexpr double kLargestFold = 3.05;  // rad; folded flat, cloth turns about its own thickness
-constexpr double kSame = 1e-6;         // m
-constexpr double kFar = 1e3;           // links by which a line goes on beyond what a chart shows of it
-
-double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
+constexpr double kSameLength = 1e-6;  // m
+constexpr double kFar = 1e3;          // links by which a line goes on beyond what a chart shows of it
 
 /// The rotation by `angle` about a direction in the plane.
 Matrix3d turn_about(const Vector2d& direction, double angle) {
@@ -96,9 +94,9 @@ std::vector<OnPart> particles_on(const design::EdgePart& part, const std::vector
 }
 
 /// What later flat irons leave of a fold.
-class Pressed {
+class FlatIrons {
  public:
-  Pressed(const design::Garment& garment, std::size_t fold, int panel) {
+  FlatIrons(const design::Garment& garment, std::size_t fold, int panel) {
     for (std::size_t k = fold + 1; k < garment.presses.size(); ++k) {
       const design::Press& flat = garment.presses[k];
       if (flat.kind != design::Press::Kind::flat || flat.region < 0) continue;
@@ -118,7 +116,7 @@ class Pressed {
 };
 
 /// Chains of the particles, a new one wherever another share of the fold is left.
-void add_runs(const std::vector<OnPart>& particles, const FoldChain& fold, const Pressed& pressed, std::vector<FoldChain>& chains) {
+void add_runs(const std::vector<OnPart>& particles, const FoldChain& fold, const FlatIrons& pressed, std::vector<FoldChain>& chains) {
   for (std::size_t k = 0; k + 1 < particles.size();) {
     const double share = pressed.share_at(0.5 * (particles[k].at + particles[k + 1].at));
     FoldChain chain{{particles[k].particle}, fold.angle * share, fold.goes_on, fold.turned_over};
@@ -240,8 +238,8 @@ std::vector<FoldChain> fold_chains(const design::Garment& garment, const std::ve
       const bool line = part.on == design::EdgePart::On::line;
       if (line && !follows_fold(press, garment.panels[part.panel], part, outlines[part.panel].h)) continue;
       const double length = design::edge_of(garment.panels[part.panel], part).curve.length();
-      const bool whole_edge = !line && std::abs(part.to - part.from) > length - kSame;  // it goes on into the next edge's seam
-      const Pressed pressed(garment, k, part.panel);
+      const bool whole_edge = !line && std::abs(part.to - part.from) > length - kSameLength;  // it goes on into the next edge's seam
+      const FlatIrons pressed(garment, k, part.panel);
       add_runs(particles_on(part, outlines, borders, panels, model), {{}, angle, whole_edge, turned_over(garment, part)}, pressed, chains);
     }
   }

@@ -8,6 +8,8 @@
 
 namespace garment::modeller {
 
+constexpr double kLargestFold = 3.05;  // rad; folded flat, cloth turns about its own thickness
+
 /// Particles along which the cloth is folded at rest.
 struct FoldChain {
   std::vector<model::Index> particle;

@@ -12,9 +12,10 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kClear = 0.45;   // of the spacing: least distance of a crossing from the border
-constexpr double kOnLine = 1e-6;  // of the spacing: a border vertex this near to a crossing is that crossing
-constexpr double kBeside = 0.3;   // of the spacing: a border vertex this near to the side of a cell cuts it
+constexpr double kClear = 0.45;  // of the spacing: least distance of a crossing from the border
+constexpr double kOnCrossing =
+    1e-6;                        // of the spacing: a border vertex this near to a crossing is that crossing
+constexpr double kBeside = 0.3;  // of the spacing: a border vertex this near to the side of a cell cuts it
 
 double distance_squared(const Vector2d& x, const Vector2d& a, const Vector2d& b) {
   Vector2d d = b - a;
@@ -198,7 +199,7 @@ class Grid {
     for (std::size_t k = 0; k < loop_.size(); ++k) {
       if (!used_[k]) continue;
       Vector2d r(std::floor(loop_[k].x() + 0.5), std::floor(loop_[k].y() + 0.5));
-      if ((loop_[k] - r).cwiseAbs().maxCoeff() < kOnLine) {
+      if ((loop_[k] - r).cwiseAbs().maxCoeff() < kOnCrossing) {
         node_[at(static_cast<int>(r.x()) - i0_, static_cast<int>(r.y()) - j0_)] = static_cast<int>(k);
         continue;
       }
@@ -212,8 +213,8 @@ class Grid {
   void mark_cut_cells() {
     for_each_segment([&](const Vector2d& a, const Vector2d& b) {
       for_each_near(a, b, 1, [&](int i, int j) {
-        Vector2d low(i + i0_ + kOnLine, j + j0_ + kOnLine),
-            high(i + i0_ + 1 - kOnLine, j + j0_ + 1 - kOnLine);
+        Vector2d low(i + i0_ + kOnCrossing, j + j0_ + kOnCrossing),
+            high(i + i0_ + 1 - kOnCrossing, j + j0_ + 1 - kOnCrossing);
         if (enters(a, b, low, high)) cut_[at(i, j)] = 1;
       });
     });

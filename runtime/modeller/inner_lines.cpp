@@ -6,7 +6,7 @@
 namespace garment::modeller {
 namespace {
 
-constexpr double kLeast = 1e-6;  // m
+constexpr double kShortestLine = 1e-6;  // m
 
 class Followed {
  public:
@@ -44,7 +44,7 @@ std::vector<InnerLine> lines_to_follow(const design::Garment& garment, int panel
   std::vector<InnerLine> lines;
   const std::vector<design::Edge>& drawn = garment.panels[panel].lines;
   for (std::size_t k = 0; k < drawn.size(); ++k)
-    if (followed.holds(k) && drawn[k].curve.length() > kLeast) lines.push_back({.curve = drawn[k].curve, .line = static_cast<int>(k)});
+    if (followed.holds(k) && drawn[k].curve.length() > kShortestLine) lines.push_back({.curve = drawn[k].curve, .line = static_cast<int>(k)});
   const std::vector<InnerLine> of_pleats = pleat_lines(garment.panels[panel]);
   lines.insert(lines.end(), of_pleats.begin(), of_pleats.end());
   return lines;

@@ -10,7 +10,6 @@ namespace {
 
 constexpr int kMaxRounds = 60;
 constexpr std::size_t kMaxBreaks = 20000;
-constexpr double kSnap = 0.2;  // of h, on the side with most particles
 
 /// A break as a side meets it. Where two segments join it is the end of the one before `segment`, too.
 struct Stop {

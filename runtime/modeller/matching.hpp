@@ -10,6 +10,8 @@
 
 namespace garment::modeller {
 
+constexpr double kSnap = 0.2;  // of h, on the side with most particles: breaks closer than this are one
+
 /// A panel's outline with its grid spacing, as the matching sees it.
 struct BorderPanel {
   const design::Panel* panel = nullptr;

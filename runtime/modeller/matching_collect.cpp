@@ -9,9 +9,8 @@
 namespace garment::modeller {
 namespace {
 
-constexpr double kSnap = 0.2;   // of h: breaks closer than this are one
-constexpr double kSame = 1e-4;  // of h: places of one pleat
-constexpr double kTiny = 1e-7;  // m: shorter sewn lengths are none
+constexpr double kSamePleat = 1e-4;  // of h: places of one pleat
+constexpr double kLeastSewn = 1e-7;  // m: shorter sewn lengths are none
 
 bool is_valid(const design::Garment& garment, const design::EdgePart& part) {
   if (part.panel < 0 || part.panel >= static_cast<int>(garment.panels.size())) return false;
@@ -41,7 +40,7 @@ std::vector<design::EdgePart> without(const design::EdgePart& part, Stretches ta
   double at = std::min(part.from, part.to);
   const double end = std::max(part.from, part.to);
   auto keep = [&](double from, double to) {
-    if (to - from <= kTiny) return;
+    if (to - from <= kLeastSewn) return;
     rest.push_back(part);
     rest.back().from = from;
     rest.back().to = to;
@@ -67,7 +66,7 @@ std::vector<SideSegment> resolve(const design::EdgePart& part, std::vector<Borde
     if (piece.edge != part.edge || piece.on != part.on) continue;
     double a = std::max(low, std::min(piece.from, piece.to)),
            b = std::min(high, std::max(piece.from, piece.to));
-    if (b - a <= kTiny) continue;
+    if (b - a <= kLeastSewn) continue;
     const double end_a = std::clamp(piece.position(a), 0.0, piece.length()),
                  end_b = std::clamp(piece.position(b), 0.0, piece.length());
     double t_a = break_at(piece, end_a, snap * panel.h), snapped = break_at(piece, end_b, snap * panel.h);
@@ -124,7 +123,7 @@ void collect_seam(const design::Garment& garment, const design::Seam& seam, cons
         }
     }
     finish(side);
-    if (side.length <= kTiny) {
+    if (side.length <= kLeastSewn) {
       findings.push_back({"G0550",
                           Severity::error,
                           fmt::format("a side of {} `{}` has no length to sew", kind, seam.name),
@@ -148,11 +147,11 @@ void collect_seam(const design::Garment& garment, const design::Seam& seam, cons
 /// Undoes the last `open` of a side, by its sewn length.
 void undo_end(Side& side, double open, std::vector<BorderPanel>& panels) {
   const double closed = (1 - open) * side.length;
-  while (!side.segments.empty() && side.segments.back().begin >= closed - kTiny) side.segments.pop_back();
+  while (!side.segments.empty() && side.segments.back().begin >= closed - kLeastSewn) side.segments.pop_back();
   if (!side.segments.empty()) {
     SideSegment& last = side.segments.back();
     const double rest = closed - last.begin, end = last.t0 < last.t1 ? last.t0 + rest : last.t0 - rest;
-    if (rest < last.length() - kTiny) {
+    if (rest < last.length() - kLeastSewn) {
       Piece& piece = panels[last.panel].outline.pieces[last.piece];
       last.t1 = break_at(piece, end, kSnap * panels[last.panel].h);
       if (last.t1 == last.t0) last.t1 = break_at(piece, end, 0);
@@ -170,7 +169,7 @@ void collect_zip(const design::Garment& garment, const design::Zip& zip, std::ve
   if (result.size() == before) return;
   std::vector<Side>& sides = result.back().sides;
   for (Side& side : sides) undo_end(side, std::clamp(zip.open, 0.0, 1.0), panels);
-  if (sides[0].length <= kTiny || sides[1].length <= kTiny) result.pop_back();  // wholly open
+  if (sides[0].length <= kLeastSewn || sides[1].length <= kLeastSewn) result.pop_back();  // wholly open
 }
 
 void collect_darts(std::vector<BorderPanel>& panels, std::vector<Matching>& result) {
@@ -266,7 +265,7 @@ std::vector<design::EdgePart> sewn_from(double from, int way, double length, con
   for (design::EdgePart some : without(part, taken)) {
     const double has = std::abs(some.to - some.from);
     if (has > length) some.to = some.from + way * length;
-    if (length > kTiny) result.push_back(some);
+    if (length > kLeastSewn) result.push_back(some);
     length -= has;
   }
   return result;
@@ -275,7 +274,7 @@ std::vector<design::EdgePart> sewn_from(double from, int way, double length, con
 Side side_of(const std::vector<design::EdgePart>& parts, std::vector<BorderPanel>& panels) {
   Side side;
   for (const design::EdgePart& part : parts)
-    for (const SideSegment& s : resolve(part, panels, kSame)) side.segments.push_back(s);
+    for (const SideSegment& s : resolve(part, panels, kSamePleat)) side.segments.push_back(s);
   finish(side);
   return side;
 }
@@ -303,12 +302,12 @@ void collect_pleats(std::vector<BorderPanel>& panels, std::vector<Matching>& res
         double reach = 0;
         for (const design::EdgePart& some : beside) reach += std::abs(some.to - some.from);
         matching.sides.clear();
-        if (reach > kTiny) matching.sides.push_back(side_of(beside, panels));
+        if (reach > kLeastSewn) matching.sides.push_back(side_of(beside, panels));
         else reach = pleat.depth;  // at the edge's end: the two layers of the pleat alone
         for (double start : layers.start)
           matching.sides.push_back(side_of({part(start, start + (layers.fold > start ? reach : -reach))}, panels));
         result.push_back(matching);
-        if (reach >= pleat.depth - kTiny || matching.sides.size() < 3) continue;
+        if (reach >= pleat.depth - kLeastSewn || matching.sides.size() < 3) continue;
         matching.sides.clear();  // what reaches beyond the edge's end
         for (double start : layers.start)
           matching.sides.push_back(side_of({part(start + (layers.fold > start ? reach : -reach), layers.fold)}, panels));
@@ -318,7 +317,7 @@ void collect_pleats(std::vector<BorderPanel>& panels, std::vector<Matching>& res
       matching.sides.clear();
       for (std::size_t l = 0; l < panels[p].outline.lines.size(); ++l) {
         const InnerLine& line = panels[p].outline.lines[l];
-        if (line.from > kTiny || line.pleat != static_cast<int>(k) || (!same_place(line.at, pleat.from) && !same_place(line.at, pleat.to))) continue;
+        if (line.from > kLeastSewn || line.pleat != static_cast<int>(k) || (!same_place(line.at, pleat.from) && !same_place(line.at, pleat.to))) continue;
         const std::size_t piece = panels[p].outline.begin_of(panels[p].outline.n_closed + l);
         Piece& drawn = panels[p].outline.pieces[piece];
         const double end = std::min(panel.pleats[pleat.pleat].length, drawn.length());

@@ -12,12 +12,12 @@
 namespace garment::modeller {
 namespace {
 
+using geometry::cross;
+
 /// Ends that lie closer than this meet, m: below what any pattern file resolves, far above rounding.
 constexpr double kMeet = 1e-5;
 constexpr double kNear = 0.02;  // of h: what lies this near to a border or line lies on it
 constexpr double kJoin = 0.2;  // of h: lines join the border at a particle this near
-
-double cross(const Point2& a, const Point2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 std::string mm(double metres) { return format_number(metres * 1000, 4) + " mm"; }
 

@@ -10,7 +10,7 @@ namespace {
 
 using design::Point2;
 
-constexpr double kSample = 2e-3;  // m between the places at which a region is asked for its border
+constexpr double kRegionStep = 2e-3;  // m between the places at which a region is asked for its border
 
 /// Where the places of one panel lie in the region of a pad.
 class PadShape {
@@ -26,7 +26,7 @@ class PadShape {
     const double beyond = 2 * garment.panels[pad.panel].resolution;  // no particle need lie at the border
     low -= Point2(beyond, beyond);
     high += Point2(beyond, beyond);
-    const double step = std::max(kSample, (high - low).maxCoeff() / 100);
+    const double step = std::max(kRegionStep, (high - low).maxCoeff() / 100);
     auto look = [&](const auto& is_outside) {
       for (double y = low.y(); y <= high.y(); y += step)
         for (double x = low.x(); x <= high.x(); x += step)

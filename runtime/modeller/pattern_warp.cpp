@@ -7,18 +7,17 @@ namespace garment::modeller {
 namespace {
 
 using design::Point2;
+using geometry::cross;
 
-constexpr double kSampleLength = 0.02;  // m between two corners of the polygon
-constexpr int kFewest = 2, kMost = 24;  // of an edge
-constexpr double kOnLine = 1e-14;       // m^2, area of a triangle that is a line
+constexpr double kSampleLength = 0.02;                // m between two corners of the polygon
+constexpr int kFewestCorners = 2, kMostCorners = 24;  // of an edge
+constexpr double kFlatArea = 1e-14;                   // m^2, area of a triangle that is a line
 
 const design::Edge* find_edge(const design::Panel& panel, const std::string& name) {
   for (const design::Edge& edge : panel.edges)
     if (edge.name == name) return &edge;
   return nullptr;
 }
-
-double cross(const Point2& a, const Point2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 }  // namespace
 
@@ -32,7 +31,7 @@ PatternWarp::PatternWarp(const design::Panel& before, const design::Panel& now) 
       move_.clear();
       return;
     }
-    const int n = std::clamp(static_cast<int>(length / kSampleLength), kFewest, kMost);
+    const int n = std::clamp(static_cast<int>(length / kSampleLength), kFewestCorners, kMostCorners);
     for (int k = 0; k < n; ++k) {
       const double share = static_cast<double>(k) / n;
       const Point2 p = edge.curve.point_at(share * length),
@@ -57,10 +56,10 @@ Point2 PatternWarp::operator()(const Point2& p) const {
     const Point2 next = at_[j] - p;
     const double next_r = next.norm(), area = cross(here, next), dot = here.dot(next);
     if (r == 0) return p + move_[i];
-    if (std::abs(area) < kOnLine && dot < 0) return p + (next_r * move_[i] + r * move_[j]) / (r + next_r);
+    if (std::abs(area) < kFlatArea && dot < 0) return p + (next_r * move_[i] + r * move_[j]) / (r + next_r);
     double w = 0;
-    if (std::abs(last_area) >= kOnLine) w += (last_r - last_dot / r) / last_area;
-    if (std::abs(area) >= kOnLine) w += (next_r - dot / r) / area;
+    if (std::abs(last_area) >= kFlatArea) w += (last_r - last_dot / r) / last_area;
+    if (std::abs(area) >= kFlatArea) w += (next_r - dot / r) / area;
     sum += w * move_[i];
     weights += w;
     here = next;

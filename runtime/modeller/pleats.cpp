@@ -7,12 +7,11 @@ namespace garment::modeller {
 namespace {
 
 using design::Pleat;
+using geometry::cross;
 
-constexpr double kTiny = 1e-9;  // m
-constexpr double kFreeFold = 0.02;  // m beyond the underlay
-constexpr double kRamp = 0.02;  // m over which cloth beside a pleat comes back from the layer under it
-
-double cross(const Point2& a, const Point2& b) { return a.x() * b.y() - a.y() * b.x(); }
+constexpr double kSamePlace = 1e-9;  // m
+constexpr double kFreeFold = 0.02;   // m beyond the underlay
+constexpr double kRamp = 0.02;       // m over which cloth beside a pleat comes back from the layer under it
 
 /// A knife pleat whose outer fold looks to the edge's end (`end`) or start, lying at the back; or, as a tuck, at the
 /// face - then its outer fold looks the other way.
@@ -60,7 +59,7 @@ void stack(std::vector<LaidPleat>& pleats) {
     LaidPleat& p = pleats[k];
     p.sewn = p.from;
     for (const LaidPleat& other : pleats)
-      if (other.edge == p.edge && other.to <= p.from + kTiny) p.sewn -= other.take();
+      if (other.edge == p.edge && other.to <= p.from + kSamePlace) p.sewn -= other.take();
     double nearest = 1e300;
     for (std::size_t j = 0; j < pleats.size(); ++j) {
       const LaidPleat& other = pleats[j];
@@ -195,7 +194,7 @@ std::vector<InnerLine> pleat_lines(const design::Panel& panel) {
     }
     std::sort(wanted.begin(), wanted.end());
     for (const auto& [at, length] : wanted) {
-      if (at < kTiny || at > panel.edges[p.edge].curve.length() - kTiny) continue;  // the next edge runs there
+      if (at < kSamePlace || at > panel.edges[p.edge].curve.length() - kSamePlace) continue;  // the next edge runs there
       const Point2 start = panel.edges[p.edge].curve.point_at(at);
       const double room = depth_of(panel, start, p.in);
       if (room > 1e8) continue;

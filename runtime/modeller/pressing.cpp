@@ -15,13 +15,11 @@ namespace {
 
 using design::Point2;
 using design::Press;
+using geometry::cross;
 using model::Index;
 
-constexpr double kLargestFold = 3.05;      // rad; folded flat, cloth turns about its own thickness
 constexpr double kLeastTwist = 1e-6;       // 1/m; curls along the threads leave none
 constexpr double kSharp = 1e-6;            // m, shorter folds lie in one cell
-
-double cross(const Point2& a, const Point2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// The thread of a bending stencil: its middle, its direction, and the length that it answers for.
 struct Thread {

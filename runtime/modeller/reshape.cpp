@@ -16,7 +16,7 @@ using model::Model;
 using model::Vector2d;
 using model::Vector3d;
 using Gradient = Eigen::Matrix<double, 3, 2>;  // of positions by panel coordinates
-using Stretch = Eigen::Matrix2d;
+using StretchTensor = Eigen::Matrix2d;
 using Matrix = Eigen::SparseMatrix<double>;
 using Vectors = std::vector<Vector3d>;
 
@@ -54,32 +54,26 @@ Gradient gradient(const Model& m, std::size_t t, const Triangle& measure, const 
 }
 
 /// The square root of g^T g.
-Stretch stretch_of(const Gradient& g) {
-  const Stretch c = g.transpose() * g;
+StretchTensor stretch_of(const Gradient& g) {
+  const StretchTensor c = g.transpose() * g;
   const double root = std::sqrt(std::max(0.0, c.determinant()));
   const double size = std::sqrt(c.trace() + 2 * root);
-  if (!(root > kFlat) || !(size > 0)) return Stretch::Identity();
-  return (c + root * Stretch::Identity()) / size;
+  if (!(root > kFlat) || !(size > 0)) return StretchTensor::Identity();
+  return (c + root * StretchTensor::Identity()) / size;
 }
 
 /// g without its stretch; zero where it has no direction.
 Gradient turn_of(const Gradient& g) {
-  const Stretch s = stretch_of(g);
+  const StretchTensor s = stretch_of(g);
   const Gradient turn = g * s.inverse();
-  const bool well = (turn.transpose() * turn - Stretch::Identity()).norm() < 1e-3;
+  const bool well = (turn.transpose() * turn - StretchTensor::Identity()).norm() < 1e-3;
   return well ? turn : Gradient(Gradient::Zero());
 }
 
-Index find_panel(const Model& model, const std::string& name) {
-  for (std::size_t p = 0; p < model.panels.size(); ++p)
-    if (model.panels[p].name == name) return static_cast<Index>(p);
-  return -1;
-}
-
 /// How the cloth was stretched at the places of the new triangles; not at all in new panels.
-std::vector<Stretch> old_stretches(const ModelledGarment& before, const Vectors& position, const ModelledGarment& now) {
+std::vector<StretchTensor> old_stretches(const ModelledGarment& before, const Vectors& position, const ModelledGarment& now) {
   const Model &is = now.model, &was = before.model;
-  std::vector<Stretch> out(is.n_triangles(), Stretch::Identity());
+  std::vector<StretchTensor> out(is.n_triangles(), StretchTensor::Identity());
   for (std::size_t p = 0; p < is.panels.size(); ++p) {
     const Index old = find_panel(was, is.panels[p].name);
     if (old < 0) continue;
@@ -125,7 +119,7 @@ class Reshaping {
     factor();
   }
 
-  Vectors solve(const std::vector<Stretch>& stretch, const Vectors& x) {
+  Vectors solve(const std::vector<StretchTensor>& stretch, const Vectors& x) {
     const std::size_t n = m_.n_particles();
     std::array<Eigen::VectorXd, 3> right;
     for (int axis = 0; axis < 3; ++axis) right[axis] = spring_[axis].cwiseProduct(aim_[axis]);
@@ -215,7 +209,7 @@ bool at_home(const Model& m, const Transferred& laid) {
 Vectors reshape(const ModelledGarment& before, const Vectors& position, const ModelledGarment& now,
                 const Transferred& laid, const std::vector<body::Body>& bodies) {
   if (at_home(now.model, laid)) return laid.position;
-  const std::vector<Stretch> stretch = old_stretches(before, position, now);
+  const std::vector<StretchTensor> stretch = old_stretches(before, position, now);
   Reshaping reshaping(now.model, laid.position, bodies);
   if (!reshaping.well()) return laid.position;
   Vectors x = laid.position;

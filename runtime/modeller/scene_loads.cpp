@@ -19,7 +19,7 @@ constexpr double kRodStiffness = 5e4;  // N/m: 10 N draw it out by 0.2 mm
 constexpr double kSheetDrag = 1.2;     // of a sheet square to the flow, where wind is stated alone (Hoerner 1965, 3-16)
 
 /// A point of the cloth: corners of a triangle and their weights.
-struct Place {
+struct ClothPoint {
   model::Indices<3> particle{};
   std::array<double, 3> weight{};
 };
@@ -30,7 +30,7 @@ class Loads {
       : panels_(panels), model_(model), findings_(findings) {}
 
   void force(const design::Force& f) {
-    const std::optional<Place> place = place_of(f.panel, f.point);
+    const std::optional<ClothPoint> place = place_of(f.panel, f.point);
     if (!place) return lost("force `" + f.name + "`", f.origin);
     for (int k = 0; k < 3; ++k) {
       if (place->weight[k] == 0) continue;
@@ -51,9 +51,9 @@ class Loads {
   }
 
  private:
-  std::optional<Place> place_of(int panel, const design::Point2& point) const {
+  std::optional<ClothPoint> place_of(int panel, const design::Point2& point) const {
     if (panel < 0 || panel >= static_cast<int>(model_.panels.size()) || !point.allFinite()) return std::nullopt;
-    Place place;
+    ClothPoint place;
     const Index t = model::FlatIndex(model_, panel).locate(point, place.weight);
     if (t < 0) return std::nullopt;
     place.particle = model_.corners(static_cast<std::size_t>(t));
@@ -64,7 +64,7 @@ class Loads {
   }
 
   void rod(const design::Constraint& c) {
-    const std::optional<Place> a = place_of(c.a.panel, c.a.point), b = place_of(c.b.panel, c.b.point);
+    const std::optional<ClothPoint> a = place_of(c.a.panel, c.a.point), b = place_of(c.b.panel, c.b.point);
     if (!a || !b) return lost("`constrain`", c.origin);
     const bool equal = c.kind == design::Constraint::Kind::equal;
     model_.closures.push_back({equal ? "constrain equal" : "constrain distance", c.origin, 0});

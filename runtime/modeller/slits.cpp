@@ -5,9 +5,9 @@
 namespace garment::modeller {
 namespace {
 
-constexpr double kHalfGap = 0.05e-3;  // m
+using geometry::cross;
 
-double cross(const Point2& a, const Point2& b) { return a.x() * b.y() - a.y() * b.x(); }
+constexpr double kHalfGap = 0.05e-3;  // m
 
 /// Ways along the slit at one of its vertices; zero beyond its ends.
 struct Station {

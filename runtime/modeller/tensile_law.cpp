@@ -78,8 +78,8 @@ model::TensileLaw add_laws(const std::vector<std::pair<const model::TensileLaw*,
   for (const auto& [law, factor] : laws) sum.strain.insert(sum.strain.end(), law->strain.begin(), law->strain.end());
   std::sort(sum.strain.begin(), sum.strain.end());
   // Knots nearer than this are one: pieces too short to divide by say nothing.
-  constexpr double kApart = 1e-6;
-  sum.strain.erase(std::unique(sum.strain.begin(), sum.strain.end(), [](double a, double b) { return b - a < kApart; }),
+  constexpr double kLeastApart = 1e-6;
+  sum.strain.erase(std::unique(sum.strain.begin(), sum.strain.end(), [](double a, double b) { return b - a < kLeastApart; }),
                    sum.strain.end());
   for (double e : sum.strain) {
     double force = linear * e, slope = linear;

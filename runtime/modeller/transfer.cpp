@@ -13,17 +13,11 @@ using model::Index;
 using model::Vector3d;
 
 /// Of a vertex of the new model.
-struct Place {
+struct OldPlace {
   Vector3d at = Vector3d::Zero();
   Index exact = -1;  ///< old particle that lies here
   bool known = false;
 };
-
-Index find_panel(const model::Model& model, const std::string& name) {
-  for (std::size_t p = 0; p < model.panels.size(); ++p)
-    if (model.panels[p].name == name) return static_cast<Index>(p);
-  return -1;
-}
 
 /// Do both panels have the same vertices in the same order?
 bool same_grid(const model::Model& a, const model::PanelRange& in_a, const model::Model& b,
@@ -34,8 +28,8 @@ bool same_grid(const model::Model& a, const model::PanelRange& in_a, const model
   return true;
 }
 
-void carry_panel(const ModelledGarment& before, Index old, const std::vector<Vector3d>& position,
-                 const ModelledGarment& now, Index panel, std::vector<Place>& places) {
+void carry_old_panel(const ModelledGarment& before, Index old, const std::vector<Vector3d>& position,
+                     const ModelledGarment& now, Index panel, std::vector<OldPlace>& places) {
   const model::PanelRange &was = before.model.panels[old], &is = now.model.panels[panel];
   if (same_grid(before.model, was, now.model, is)) {
     for (Index k = 0; k < is.n_vertices; ++k) {
@@ -62,7 +56,7 @@ void carry_panel(const ModelledGarment& before, Index old, const std::vector<Vec
 /// Particles by the mean of their known vertices; where all of these lay on one old particle, exactly there.
 /// Says which particles are known.
 std::vector<bool> gather(const model::Model& model, const std::vector<Vector3d>& position,
-                         const std::vector<Place>& places, Transferred& out) {
+                         const std::vector<OldPlace>& places, Transferred& out) {
   const std::size_t n = model.n_particles();
   out.position.assign(n, Vector3d::Zero());
   std::vector<int> count(n, 0);
@@ -109,12 +103,12 @@ void bring_fresh(const model::Model& model, const std::vector<bool>& fresh_panel
 Transferred transfer(const ModelledGarment& before, const std::vector<Vector3d>& position,
                      const ModelledGarment& now) {
   Transferred out;
-  std::vector<Place> places(now.model.n_vertices());
+  std::vector<OldPlace> places(now.model.n_vertices());
   std::vector<bool> fresh(now.model.panels.size(), false);
   for (std::size_t p = 0; p < now.model.panels.size(); ++p) {
     const Index old = find_panel(before.model, now.model.panels[p].name);
     fresh[p] = old < 0;
-    if (old >= 0) carry_panel(before, old, position, now, static_cast<Index>(p), places);
+    if (old >= 0) carry_old_panel(before, old, position, now, static_cast<Index>(p), places);
   }
   const std::vector<bool> known = gather(now.model, position, places, out);
   bring_fresh(now.model, fresh, known, out);

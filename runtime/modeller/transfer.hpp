@@ -1,5 +1,6 @@
 #pragma once
 // The shape of a garment carried over to the garment as it was changed, by material coordinates.
+#include <string>
 #include <vector>
 
 #include "runtime/design/garment.hpp"
@@ -12,6 +13,13 @@ struct ModelledGarment {
   const design::Garment& garment;
   const model::Model& model;
 };
+
+/// The panel of that name; -1 where there is none.
+inline model::Index find_panel(const model::Model& model, const std::string& name) {
+  for (std::size_t p = 0; p < model.panels.size(); ++p)
+    if (model.panels[p].name == name) return static_cast<model::Index>(p);
+  return -1;
+}
 
 struct Transferred {
   std::vector<model::Vector3d> position;  ///< m [n_particles of the new model]

@@ -12,7 +12,7 @@ using model::Index;
 using Corners = std::array<Index, 3>;
 
 /// A triangle of a panel: one of its cut triangles, or half of a cell.
-struct Place {
+struct PanelTriangle {
   std::size_t panel;
   bool cut;
   std::size_t index;
@@ -48,7 +48,7 @@ bool turn(const MeshedPanel& p, std::vector<std::array<int, 3>>& list, bool cut,
 }  // namespace
 
 void part_twins(std::vector<MeshedPanel>& panels, const std::vector<Index>& particle) {
-  std::map<Corners, std::vector<Place>> triangles;
+  std::map<Corners, std::vector<PanelTriangle>> triangles;
   for (std::size_t p = 0; p < panels.size(); ++p) {
     for (bool cut : {false, true}) {
       const auto& list = cut ? panels[p].mesh.cut : panels[p].mesh.cell_halves;
@@ -64,7 +64,7 @@ void part_twins(std::vector<MeshedPanel>& panels, const std::vector<Index>& part
   for (const auto& [corners, places] : triangles)
     if (places.size() > 1) twins.push_back(corners);
   for (const Corners& corners : twins) {
-    std::vector<Place> places = triangles[corners];
+    std::vector<PanelTriangle> places = triangles[corners];
     bool parted = false;
     for (std::size_t i = places.size(); i-- > 0 && !parted;) {
       MeshedPanel& p = panels[places[i].panel];

@@ -8,10 +8,10 @@
 namespace garment::modeller {
 namespace {
 
+using geometry::cross;
+
 constexpr double kPi = 3.14159265358979323846;
 constexpr int kDirections = 720;
-
-double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 }  // namespace
 

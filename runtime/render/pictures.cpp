@@ -9,7 +9,7 @@
 namespace garment::render {
 namespace {
 
-constexpr Rgb kInk = {70, 74, 82};
+constexpr Rgb kScaleInk = {70, 74, 82};
 constexpr Rgb kPaleInk = {120, 125, 134};
 
 bool drawable(const Scene& scene, const PictureSize& size) {
@@ -49,7 +49,7 @@ void draw_scale(Image& image, double end, double largest) {
   const double dot = std::max(1.0, image.width / 450.0);
   const int bar_width = static_cast<int>(13 * dot), bar_height = static_cast<int>(0.34 * image.height);
   const int x = image.width - static_cast<int>(75 * dot), y = static_cast<int>(30 * dot);
-  draw_text(image, x, y - 17 * dot, "strain", dot, kInk);
+  draw_text(image, x, y - 17 * dot, "strain", dot, kScaleInk);
   for (int j = 0; j < bar_height; ++j) {
     const Vec3 c = strain_color(1 - (static_cast<float>(j) + 0.5f) / static_cast<float>(bar_height));
     image.fill_rect(x, y + j, bar_width, 1, {srgb_byte(c[0]), srgb_byte(c[1]), srgb_byte(c[2])});
@@ -57,12 +57,12 @@ void draw_scale(Image& image, double end, double largest) {
   for (int k = 0; k <= 4; ++k) {
     const int at = y + bar_height - k * bar_height / 4;
     image.fill_rect(x + bar_width, at - (k == 4 ? 0 : 1), static_cast<int>(4 * dot),
-                    std::max(1, static_cast<int>(dot)), kInk);
-    draw_text(image, x + bar_width + 7 * dot, at - 3.5 * dot, percent(end * k / 4), dot, kInk);
+                    std::max(1, static_cast<int>(dot)), kScaleInk);
+    draw_text(image, x + bar_width + 7 * dot, at - 3.5 * dot, percent(end * k / 4), dot, kScaleInk);
   }
   const double below = y + bar_height + 14 * dot;
   draw_text(image, x, below, "largest", dot, kPaleInk);
-  draw_text(image, x, below + 11 * dot, percent(largest), dot, kInk);
+  draw_text(image, x, below + 11 * dot, percent(largest), dot, kScaleInk);
 }
 
 }  // namespace

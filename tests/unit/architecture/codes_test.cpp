@@ -1,24 +1,18 @@
 // Every diagnostic code must be provoked somewhere: by a golden script or by a test.
 #include <catch2/catch.hpp>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <regex>
 #include <set>
 #include <sstream>
 
 #include "grammar/diagnostic.hpp"
+#include "tests/unit/architecture/text_files.hpp"
 
 namespace {
 
+using garment::test::read;
 namespace fs = std::filesystem;
-
-std::string read(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::stringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
 
 /// Codes written in the golden scripts (`#! error[G0312]`), in their .expected files, and as text in the
 /// tests.

@@ -1,23 +1,18 @@
 // The rooms of the house: what each file includes, against the table of docs/architecture.md.
 #include <catch2/catch.hpp>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <regex>
 #include <set>
 #include <sstream>
 
+#include "tests/unit/architecture/text_files.hpp"
+
 namespace {
 
+using garment::test::read;
 namespace fs = std::filesystem;
 using Names = std::set<std::string>;
-
-std::string read(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::stringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
 
 const fs::path kRoot = GARMENT_SOURCE_DIR;
 

@@ -5,13 +5,12 @@
 
 #include "runtime/body/measure.hpp"
 #include "runtime/body/shapes.hpp"
+#include "tests/unit/body/meshes.hpp"
 
 using namespace garment;
 using namespace garment::body;
 
 namespace {
-
-const std::string kBodies = std::string(GARMENT_DATA_DIR) + "/bodies/";
 
 BodyResult load(const std::string& file) {
   design::Body declared;

@@ -4,23 +4,11 @@
 
 #include "runtime/body/body.hpp"
 #include "runtime/body/shapes.hpp"
+#include "tests/unit/body/meshes.hpp"
 
 using namespace garment::body;
 
 namespace {
-
-void append(TriangleMesh& mesh, const TriangleMesh& other, const Vector3d& shift) {
-  const int base = static_cast<int>(mesh.vertices.size());
-  for (const Vector3d& p : other.vertices) mesh.vertices.push_back(p + shift);
-  for (const auto& t : other.triangles) mesh.triangles.push_back({t[0] + base, t[1] + base, t[2] + base});
-}
-
-Body body_of(TriangleMesh mesh) {
-  Body body;
-  body.mesh = std::move(mesh);
-  build_index(body);
-  return body;
-}
 
 /// Two balls of radius 0.1 m with `gap` between them at the origin, along x.
 Body two_balls(double gap) {

@@ -11,17 +11,11 @@
 #include <random>
 
 #include "runtime/body/shapes.hpp"
+#include "tests/unit/body/meshes.hpp"
 
 using namespace garment::body;
 
 namespace {
-
-Body body_of(TriangleMesh mesh) {
-  Body body;
-  body.mesh = std::move(mesh);
-  build_index(body);
-  return body;
-}
 
 struct Random {
   std::mt19937_64 engine{11};
@@ -30,12 +24,6 @@ struct Random {
   }
   Vector3d point(double size) { return {(*this)(-size, size), (*this)(-size, size), (*this)(-size, size)}; }
 };
-
-void append(TriangleMesh& mesh, const TriangleMesh& other, const Vector3d& shift) {
-  int base = static_cast<int>(mesh.vertices.size());
-  for (const Vector3d& p : other.vertices) mesh.vertices.push_back(p + shift);
-  for (const auto& t : other.triangles) mesh.triangles.push_back({t[0] + base, t[1] + base, t[2] + base});
-}
 
 double brute_distance(const TriangleMesh& mesh, const Vector3d& p) {
   double best = std::numeric_limits<double>::infinity();

@@ -14,6 +14,7 @@
 #include "runtime/body/measure.hpp"
 #include "runtime/body/mesh_repair.hpp"
 #include "runtime/body/shapes.hpp"
+#include "tests/unit/body/meshes.hpp"
 #include "tests/unit/body/size_table.hpp"
 
 using namespace garment;
@@ -26,17 +27,6 @@ Body built(const Mannequin& person) {
   BodyResult result = build_body(declare(person), system_host(), "");
   for (const Finding& f : result.findings) FAIL(f.code << " " << f.message);
   return *result.body;
-}
-
-double smallest_angle(const TriangleMesh& mesh) {
-  double least = 180;
-  for (const auto& t : mesh.triangles)
-    for (int k = 0; k < 3; ++k) {
-      Vector3d a = mesh.vertices[t[(k + 1) % 3]] - mesh.vertices[t[k]];
-      Vector3d b = mesh.vertices[t[(k + 2) % 3]] - mesh.vertices[t[k]];
-      least = std::min(least, std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / portable::kPi);
-    }
-  return least;
 }
 
 std::string first_code(const BodyResult& result) {

@@ -14,14 +14,13 @@
 #include "runtime/body/obj_reader.hpp"
 #include "runtime/body/shapes.hpp"
 #include "runtime/body/stance.hpp"
+#include "tests/unit/body/meshes.hpp"
 #include "tests/unit/body/size_table.hpp"
 
 using namespace garment;
 using namespace garment::body;
 
 namespace {
-
-const std::string kBodies = std::string(GARMENT_DATA_DIR) + "/bodies/";
 
 std::map<std::string, PersonMeasure> by_name(const std::vector<PersonMeasure>& all) {
   std::map<std::string, PersonMeasure> out;

@@ -6,24 +6,13 @@
 #include "runtime/base/portable_math.hpp"
 #include "runtime/body/mesh_repair.hpp"
 #include "runtime/body/slice.hpp"
+#include "tests/unit/body/meshes.hpp"
 
 using namespace garment::body;
 
 namespace {
 
 constexpr double kPi = garment::portable::kPi;
-
-/// Smallest angle of all triangles, degrees.
-double smallest_angle(const TriangleMesh& mesh) {
-  double least = 180;
-  for (const auto& t : mesh.triangles)
-    for (int k = 0; k < 3; ++k) {
-      Vector3d a = mesh.vertices[t[(k + 1) % 3]] - mesh.vertices[t[k]],
-               b = mesh.vertices[t[(k + 2) % 3]] - mesh.vertices[t[k]];
-      least = std::min(least, std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / kPi);
-    }
-  return least;
-}
 
 void check_sound(const TriangleMesh& mesh, double volume, double tolerance, double angle) {
   SurfaceCheck check = check_surface(mesh);

@@ -8,7 +8,7 @@ using namespace garment::grammar::test;
 
 namespace {
 
-struct Case {
+struct Mistake {
   std::string text;
   std::string code;
   std::string marked;   ///< what the carets stand under
@@ -16,8 +16,8 @@ struct Case {
   std::string help;     ///< part of it
 };
 
-void check(const std::vector<Case>& cases) {
-  for (const Case& c : cases) {
+void fails(const std::vector<Mistake>& cases) {
+  for (const Mistake& c : cases) {
     Parsed parsed = parse_text(c.text);
     INFO(c.text << "\n" << rendered(parsed));
     REQUIRE(parsed.result.diagnostics.size() == 1);
@@ -35,7 +35,7 @@ void check(const std::vector<Case>& cases) {
 }  // namespace
 
 TEST_CASE("mistakes of lexis") {
-  check({{"save \"abc\n", "G0103", "\"abc", "the string is not closed", "add a `\"`"},
+  fails({{"save \"abc\n", "G0103", "\"abc", "the string is not closed", "add a `\"`"},
          {"let a = \"x\" \"y", "G0103", "\"y", "not closed", ""},
          {"save \"a \\q b\"", "G0104", "\\q", "`\\q` is no escape", "\\{"},
          {"save \"a \\", "G0104", "\\", "no escape", ""},
@@ -61,7 +61,7 @@ TEST_CASE("mistakes of lexis") {
 }
 
 TEST_CASE("sources that cannot be read at all") {
-  check({{"let x = \"\xFF\"", "G0101", "\xFF", "0xff is not UTF-8", "UTF-8"},
+  fails({{"let x = \"\xFF\"", "G0101", "\xFF", "0xff is not UTF-8", "UTF-8"},
          {"\xC0\x80", "G0101", "\xC0", "not UTF-8", ""},
          {"\xED\xA0\x80", "G0101", "\xED", "not UTF-8", ""},
          {"\xE2\x82", "G0101", "\xE2", "not UTF-8", ""},
@@ -71,7 +71,7 @@ TEST_CASE("sources that cannot be read at all") {
 }
 
 TEST_CASE("statements that are none") {
-  check(
+  fails(
       {{"pannel front of s { grain +y }", "G0201", "pannel", "unknown statement `pannel`",
         "did you mean `panel`?"},
        {"panel p of s { grian +y }", "G0201", "grian", "unknown statement `grian`", "did you mean `grain`?"},
@@ -93,7 +93,7 @@ TEST_CASE("statements that are none") {
 }
 
 TEST_CASE("brackets and blocks that are not closed") {
-  check(
+  fails(
       {{"let x = (1, 2", "G0203", "(", "`(` is not closed", ""},
        {"let x = (1, 2\nlet y = 3", "G0203", "(", "`(` is not closed", ""},
        {"let x = f(a,\nlet y = 3", "G0203", "(", "`(` is not closed", ""},
@@ -114,7 +114,7 @@ TEST_CASE("brackets and blocks that are not closed") {
 }
 
 TEST_CASE("values that are missing") {
-  check({{"let w = a /", "G0206", "/", "expected a value after `/`, found the end of the text", ""},
+  fails({{"let w = a /", "G0206", "/", "expected a value after `/`, found the end of the text", ""},
          {"let w = a / # why\n", "G0206", "/", "expected a value after `/`", ""},
          {"let w = a +\nlet b = 3", "G0206", "+", "the next line begins a new statement", ""},
          {"let w =", "G0206", "=", "expected a value after `=`", ""},
@@ -138,7 +138,7 @@ TEST_CASE("values that are missing") {
 }
 
 TEST_CASE("names that are missing") {
-  check({{"let = 3", "G0207", "=", "expected a name, found `=`", ""},
+  fails({{"let = 3", "G0207", "=", "expected a name, found `=`", ""},
          {"let 5 = 3", "G0207", "5", "expected a name, found the number `5`", ""},
          {"panel of s { grain +y }", "G0207", "of", "expected a name, found `of`", "clause word"},
          {"panel\n", "G0207", "", "found the end of the line", ""},
@@ -148,7 +148,7 @@ TEST_CASE("names that are missing") {
 }
 
 TEST_CASE("what is left over") {
-  check({{"expect a = b", "G0208", "=", "found `=`", "`==` compares"},
+  fails({{"expect a = b", "G0208", "=", "found `=`", "`==` compares"},
          {"x = a -b", "G0208", "-", "found `-`", "`a - b`"},
          {"x = 3 4", "G0208", "4", "found the number `4`", ""},
          {"let x = 1 ... 2", "G0208", "..", "found `..`", ""},
@@ -159,7 +159,7 @@ TEST_CASE("what is left over") {
 }
 
 TEST_CASE("blocks, conditionals, loops, comparisons, points, records") {
-  check({{"if a use b", "G0212", "use", "expected `{`, found `use`", "a blank before"},
+  fails({{"if a use b", "G0212", "use", "expected `{`, found `use`", "a blank before"},
          {"if a { } else use b", "G0212", "use", "expected `{` or `if` after `else`", ""},
          {"for i in 1 .. 2 use i", "G0212", "use", "expected `{`", ""},
          {"for i of 1 { }", "G0217", "of", "expected `in`, found `of`", "for i in 1 .. 5"},

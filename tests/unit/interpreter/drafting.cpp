@@ -7,14 +7,6 @@ using namespace garment::interpreter::test;
 
 namespace {
 
-std::string value_of(const std::string& expr, const std::string& before = "") {
-  const Trial trial(before + "\nmeasure answer = " + expr + "\n");
-  INFO(expr);
-  INFO(trial.text());
-  REQUIRE(trial.result.ok());
-  return trial.result.measures.back().text;
-}
-
 double number_of(const std::string& expr, const std::string& before = "") {
   const Trial trial(before + "\nmeasure answer = " + expr + "\n");
   INFO(expr);

@@ -25,13 +25,6 @@ std::string half(const std::string& inside, const std::string& below = "") {
          inside + "\n}\n" + below;
 }
 
-const design::Panel& last_panel(const Trial& trial) {
-  INFO(trial.text());
-  REQUIRE(trial.result.ok());
-  REQUIRE_FALSE(trial.result.garment.panels.empty());
-  return trial.result.garment.panels.back();
-}
-
 double loop_area(const design::Panel& p, const design::Hole& hole) {
   double area = 0;
   for (int k = hole.first; k < hole.first + hole.count; ++k)

@@ -25,13 +25,6 @@ const std::string kHalf =
     "free\n"
     "    close cf\n";
 
-const design::Panel& only(const Trial& trial) {
-  INFO(trial.text());
-  REQUIRE(trial.result.ok());
-  REQUIRE(trial.result.garment.panels.size() >= 1);
-  return trial.result.garment.panels.back();
-}
-
 const geometry::Curve& edge(const design::Panel& p, const std::string& name) {
   for (const design::Edge& e : p.edges)
     if (e.name == name) return e.curve;
@@ -58,7 +51,7 @@ TEST_CASE("every way of walking an edge") {
             "    edge h to (0, 30 cm) through (7 cm, 31 cm), (3 cm, 32 cm) free\n"
             "    edge k to (-5 cm, 15 cm) tangents start -y end -y free\n"
             "    close z bulge 1 cm free\n"));
-  const design::Panel& p = only(trial);
+  const design::Panel& p = last_panel(trial);
   REQUIRE(p.edges.size() == 9);
   CHECK((p.edges[1].curve.end() - design::Point2(0.2, 0.1)).norm() < 1e-15);
   // A positive radius bulges to the left of the way walked: upwards, so towards smaller x.
@@ -78,7 +71,7 @@ TEST_CASE("tangents: a missing one aims at the other handle") {
   const Trial trial(
       panel("    edge a to (30 cm, 9 cm) tangents start +x free\n    edge b to (0, 30 cm) free\n    close c "
             "free\n"));
-  const auto cubic = std::get<geometry::Cubic>(only(trial).edges[0].curve.shape());
+  const auto cubic = std::get<geometry::Cubic>(last_panel(trial).edges[0].curve.shape());
   const double handle = std::hypot(0.3, 0.09) / 3;
   CHECK((cubic.control_1 - design::Point2(handle, 0)).norm() < 1e-12);
   const design::Point2 way = (cubic.control_1 - design::Point2(0.3, 0.09)).normalized();
@@ -116,7 +109,7 @@ TEST_CASE("what an outline may not be") {
 TEST_CASE("a circle has one edge with a name") {
   const Trial rim(kHead +
                   "panel p of f { outline circle((1 cm, 2 cm), 10 cm) }\nmeasure a = length(p.rim)\n");
-  CHECK(area_of(only(rim)) == Approx(M_PI * 0.01).epsilon(1e-12));
+  CHECK(area_of(last_panel(rim)) == Approx(M_PI * 0.01).epsilon(1e-12));
   CHECK(*rim.result.measures[0].value == Approx(2 * M_PI * 0.1));
   REQUIRE(rim.result.diagnostics.size() == 1);
   CHECK(rim.result.diagnostics[0].code == "G0505");
@@ -134,7 +127,7 @@ TEST_CASE("a panel on the fold is opened") {
       "measure whole = length(p.waist)\nmeasure cut = cut_length(p.waist)\nmeasure half = "
       "length(p.left.waist)\n"
       "measure part = length(p.left.side[start .. hip])\nmeasure cloth = area(p)\n");
-  const design::Panel& p = only(trial);
+  const design::Panel& p = last_panel(trial);
   REQUIRE(p.edges.size() == 6);
   for (std::size_t k = 0; k < 6; ++k)
     CHECK((p.edges[k].curve.end() - p.edges[(k + 1) % 6].curve.start()).norm() < 1e-12);
@@ -201,11 +194,11 @@ TEST_CASE("darts and notches stay where they can be") {
 
 TEST_CASE("resolution, grain, label") {
   const Trial trial(panel(kSquare, "  resolution 5 mm\n  grain 45 deg\n  label \"arm\"\n"));
-  const design::Panel& p = only(trial);
+  const design::Panel& p = last_panel(trial);
   CHECK(p.resolution == Approx(0.005));
   CHECK(p.grain_angle == Approx(-M_PI / 4));
   CHECK(p.label == "arm");
-  CHECK(only(Trial(panel(kSquare, "  grain +y\n"))).grain_angle == 0);
+  CHECK(last_panel(Trial(panel(kSquare, "  grain +y\n"))).grain_angle == 0);
   refuses(panel(kSquare, "  resolution «20 cm»\n"), "G0409", "1 mm .. 10 cm");
   refuses(panel(kSquare, "  resolution «5»\n"), "G0308", "5 cm");
   refuses(panel(kSquare, "  label «\"hat\"»\n"), "G0309");
@@ -224,7 +217,7 @@ TEST_CASE("like takes the statements again, with changes") {
                       "panel q of f like p {\n  d.depth = 12 cm\n  rename cf as cb\n  rename side as flank\n "
                       " resolution = 5 mm\n"
                       "  dart d2 on flank at 20% width 1 cm depth 3 cm\n}\n");
-  const design::Panel& q = only(changed);
+  const design::Panel& q = last_panel(changed);
   CHECK(q.darts[0].depth == Approx(0.12));
   CHECK(q.darts.size() == 4);
   CHECK(q.resolution == Approx(0.005));
@@ -234,15 +227,15 @@ TEST_CASE("like takes the statements again, with changes") {
   const Trial removed(
       base +
       "panel q of f like p {\n  remove d, hip\n  replace edge waist to (0, 35 cm) tangents end -x free\n}\n");
-  CHECK(only(removed).darts.empty());
-  CHECK(edge(only(removed), "left.waist").end().y() == Approx(0.35));
+  CHECK(last_panel(removed).darts.empty());
+  CHECK(edge(last_panel(removed), "left.waist").end().y() == Approx(0.35));
 
   const Trial mirrored(
       panel("    edge a to (20 cm, 0) free\n    edge b to (0, 30 cm) free\n    close c free\n",
             "  grain 30 deg\n") +
       "panel q like p mirrored { }\n");
-  CHECK(only(mirrored).edges[0].curve.end().x() == Approx(-0.2));
-  CHECK(only(mirrored).grain_angle == Approx(-mirrored.result.garment.panels[0].grain_angle));
+  CHECK(last_panel(mirrored).edges[0].curve.end().x() == Approx(-0.2));
+  CHECK(last_panel(mirrored).grain_angle == Approx(-mirrored.result.garment.panels[0].grain_angle));
 
   refuses(base + "panel q like p {\n  rename «dd» as e\n}\n", "G0416", "did you mean `d`?");
   refuses(base + "panel q like p {\n  remove «sid»\n}\n", "G0416", "did you mean `side`?");
@@ -254,7 +247,7 @@ TEST_CASE("like takes the statements again, with changes") {
 
 TEST_CASE("assignments from outside") {
   const std::string base = panel(kHalf, "  dart d on waist at 50% width 2 cm depth 8 cm\n", "on fold cf");
-  CHECK(only(Trial(base + "p.d.depth = 11 cm\np.resolution = 5 mm\n")).darts[0].depth == Approx(0.11));
+  CHECK(last_panel(Trial(base + "p.d.depth = 11 cm\np.resolution = 5 mm\n")).darts[0].depth == Approx(0.11));
   CHECK(Trial(base + "f.W = 300 g/m^2\n").result.garment.fabrics[0].areal_density == Approx(0.3));
   CHECK(
       Trial(base + "f.bend = 3 * fabrics.poplin.bend_warp\n").result.garment.fabrics[0].bending_rigidity[1] ==
@@ -269,8 +262,8 @@ TEST_CASE("assignments from outside") {
 TEST_CASE("loops and conditions inside panels") {
   const Trial trial(
       panel(kSquare, "  for i in 1 .. 3 { notch n_{i} on top at i * 4 cm }\n  if 2 > 1 { grain +x }\n"));
-  CHECK(only(trial).notches.size() == 3);
-  CHECK(only(trial).grain_angle == Approx(-M_PI / 2));
+  CHECK(last_panel(trial).notches.size() == 3);
+  CHECK(last_panel(trial).grain_angle == Approx(-M_PI / 2));
   const Trial gores(kHead + "for i in 1 .. 4 {\n  panel gore_{i} of f {\n    outline from (0, 0) {\n" +
                     kSquare + "    }\n  }\n}\nseam s_one: gore_1.right_side to gore_2.left_side\n");
   REQUIRE(gores.result.ok());

@@ -24,7 +24,7 @@ panel sleeve of fabrics.wool_suiting {
 )" + tail;
 }
 
-const SolvedValue& only(const Trial& trial) {
+const SolvedValue& only_solved(const Trial& trial) {
   INFO(trial.text());
   REQUIRE(trial.result.ok());
   REQUIRE(trial.result.solved.size() == 1);
@@ -36,7 +36,7 @@ const SolvedValue& only(const Trial& trial) {
 TEST_CASE("a cap is drawn to fit its armhole") {
   const Trial trial(sleeve("solve cap_height in 5 cm .. 30 cm so length(sleeve.cap) == 1.04 * armhole",
                            "measure cap = length(sleeve.cap)\n"));
-  const SolvedValue& found = only(trial);
+  const SolvedValue& found = only_solved(trial);
   CHECK(found.name == "cap_height");
   CHECK(found.bound.empty());
   CHECK(std::fabs(found.residual_value) < 1e-9);
@@ -52,25 +52,25 @@ TEST_CASE("it does not matter who asks first, or in which order it is written") 
   // `above` is asked before the solve, in the middle of its own evaluation, and the condition needs it.
   const Trial trial(sleeve("let above = 40 cm + cap_height\nlet doubled = 2 * above\n"
                            "solve cap_height in 5 cm .. 30 cm so doubled - 80 cm == 40 cm\n"));
-  CHECK(only(trial).value == Approx(0.2).epsilon(1e-12));
+  CHECK(only_solved(trial).value == Approx(0.2).epsilon(1e-12));
   const Trial panel_first(sleeve("", "solve cap_height in 5 cm .. 30 cm so length(sleeve.cap) == 1.04 * armhole\n"));
   const Trial solve_first(sleeve("solve cap_height in 5 cm .. 30 cm so length(sleeve.cap) == 1.04 * armhole\n"));
-  CHECK(only(panel_first).value == only(solve_first).value);
+  CHECK(only_solved(panel_first).value == only_solved(solve_first).value);
 }
 
 TEST_CASE("plain equations, bounds and inequalities") {
-  CHECK(only(Trial("solve x in 0 .. 10 so x * x == 2")).value == Approx(std::sqrt(2.0)).epsilon(1e-12));
-  CHECK(only(Trial("solve x in 0 cm .. 10 cm so x * x == 2 cm^2")).text == "1.414214 cm");
+  CHECK(only_solved(Trial("solve x in 0 .. 10 so x * x == 2")).value == Approx(std::sqrt(2.0)).epsilon(1e-12));
+  CHECK(only_solved(Trial("solve x in 0 cm .. 10 cm so x * x == 2 cm^2")).text == "1.414214 cm");
   const Trial low("solve x in 3 .. 10 so x >= 2");
-  CHECK(only(low).bound == "low");
-  CHECK(only(low).value == 3);
+  CHECK(only_solved(low).bound == "low");
+  CHECK(only_solved(low).value == 3);
   const Trial high("solve x in 3 .. 10 so x == 10");
-  CHECK(only(high).bound == "high");
+  CHECK(only_solved(high).bound == "high");
   const Trial at_least("solve x in 0 .. 10 so x * x >= 2");
-  CHECK(only(at_least).value * only(at_least).value >= 2);
-  CHECK(only(at_least).value == Approx(std::sqrt(2.0)).epsilon(1e-12));
+  CHECK(only_solved(at_least).value * only_solved(at_least).value >= 2);
+  CHECK(only_solved(at_least).value == Approx(std::sqrt(2.0)).epsilon(1e-12));
   // Both ends lie on one side: the first root from the low end is found.
-  CHECK(only(Trial("solve x in 0 .. 10 so (x - 3) * (x - 5) == 0")).value == Approx(3).epsilon(1e-9));
+  CHECK(only_solved(Trial("solve x in 0 .. 10 so (x - 3) * (x - 5) == 0")).value == Approx(3).epsilon(1e-9));
 }
 
 TEST_CASE("solves that need each other") {
@@ -97,5 +97,5 @@ TEST_CASE("what cannot be solved is told with both differences") {
 
 TEST_CASE("the same script gives the same value, bit for bit") {
   const std::string script = sleeve("solve cap_height in 5 cm .. 30 cm so length(sleeve.cap) == 1.04 * armhole");
-  CHECK(only(Trial(script)).value == only(Trial(script)).value);
+  CHECK(only_solved(Trial(script)).value == only_solved(Trial(script)).value);
 }

@@ -79,6 +79,22 @@ inline void accepts(const Trial& trial) {
   CHECK(trial.result.ok());
 }
 
+inline const design::Panel& last_panel(const Trial& trial) {
+  INFO(trial.text());
+  REQUIRE(trial.result.ok());
+  REQUIRE_FALSE(trial.result.garment.panels.empty());
+  return trial.result.garment.panels.back();
+}
+
+/// What `measure` shows of an expression.
+inline std::string value_of(const std::string& expr, const std::string& before = "") {
+  const Trial trial(before + "\nmeasure answer = " + expr + "\n");
+  INFO(expr);
+  INFO(trial.text());
+  REQUIRE(trial.result.ok());
+  return trial.result.measures.back().text;
+}
+
 /// Exactly one error, with this code, at the marked place.
 inline void refuses(const std::string& script, const std::string& code, const std::string& says = "",
                     InterpretOptions options = {}) {

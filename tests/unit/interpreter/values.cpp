@@ -12,7 +12,7 @@ using namespace garment::interpreter::test;
 
 namespace {
 
-std::string value_of(const std::string& expr, const std::string& before = "") {
+std::string only_value_of(const std::string& expr, const std::string& before = "") {
   const Trial trial(before + "\nmeasure answer = " + expr + "\n");
   INFO(expr);
   INFO(trial.text());
@@ -97,13 +97,13 @@ TEST_CASE("expressions have the value a reader expects") {
       {"2 ^ 10", "1024"},
   };
   for (const auto& [expr, text] : cases)
-    if (*text != '\0') CHECK(value_of(expr) == text);
-  CHECK(value_of("half(9 cm)", "fn half(x) = x / 2") == "4.5 cm");
-  CHECK(value_of("area_of(w: 2 cm)", "fn area_of(w, h: length = 2 * w) = w * h") == "8 cm^2");
-  CHECK(value_of("fact(10)", "fn fact(n) = if n < 2 { 1 } else { n * fact(n - 1) }") == "3628800");
-  CHECK(value_of("r.b", "let r = { a = 1, b = 2 cm }") == "2 cm");
-  CHECK(value_of("r.a", "let q = { a = 1, b = 2 cm }\nlet r = q with { a = 7 }") == "7");
-  CHECK(value_of("a", "let a = b + 1 cm\nlet b = 2 cm") == "3 cm");
+    if (*text != '\0') CHECK(only_value_of(expr) == text);
+  CHECK(only_value_of("half(9 cm)", "fn half(x) = x / 2") == "4.5 cm");
+  CHECK(only_value_of("area_of(w: 2 cm)", "fn area_of(w, h: length = 2 * w) = w * h") == "8 cm^2");
+  CHECK(only_value_of("fact(10)", "fn fact(n) = if n < 2 { 1 } else { n * fact(n - 1) }") == "3628800");
+  CHECK(only_value_of("r.b", "let r = { a = 1, b = 2 cm }") == "2 cm");
+  CHECK(only_value_of("r.a", "let q = { a = 1, b = 2 cm }\nlet r = q with { a = 7 }") == "7");
+  CHECK(only_value_of("a", "let a = b + 1 cm\nlet b = 2 cm") == "3 cm");
 }
 
 TEST_CASE("what an expression may not say") {

@@ -12,6 +12,7 @@
 
 using namespace garment;
 using design::Point2;
+using pattern_test::area;
 
 namespace {
 
@@ -99,14 +100,12 @@ std::string style(const std::function<void(Draft&)>& body, const std::string& fa
   return d.end_section().finish();
 }
 
-io::DxfResult read(const std::string& text, const std::string& size = {}) {
+io::DxfResult dxf_of(const std::string& text, const std::string& size = {}) {
   io::DxfOptions options;
   options.fabric.name = "cloth";
   options.size = size;
   return io::read_dxf(text, options);
 }
-
-double area(const design::Panel& panel) { return io::signed_area(panel.edges); }
 
 const design::Garment& garment_of(const io::DxfResult& result) {
   INFO(pattern_test::all_messages(result.findings));
@@ -157,7 +156,7 @@ TEST_CASE("an ASTM file and its AAMA twin give the same pieces") {
       },
       "UNITS: metric", crlf);
   for (const std::string& text : {astm, aama}) {
-    const io::DxfResult result = read(text);
+    const io::DxfResult result = dxf_of(text);
     const design::Garment& garment = garment_of(result);
     REQUIRE(garment.panels.size() == 1);
     const design::Panel& panel = garment.panels[0];
@@ -200,7 +199,7 @@ TEST_CASE("a boundary may come in many ways") {
   };
   for (std::size_t i = 0; i < ways.size(); ++i) {
     INFO("way " << i);
-    const io::DxfResult result = read(style([&](Draft& d) {
+    const io::DxfResult result = dxf_of(style([&](Draft& d) {
       d.block("A").words("1", "Piece Name: A");
       ways[i](d);
       d.end_block();
@@ -213,7 +212,7 @@ TEST_CASE("a boundary may come in many ways") {
       .words("1", "Piece Name: LOOSE")
       .words("1", "Units: METRIC")
       .end_section();
-  const io::DxfResult result = read(loose.finish());
+  const io::DxfResult result = dxf_of(loose.finish());
   CHECK(area(garment_of(result).panels.at(0)) == Approx(whole).epsilon(2e-3));
   CHECK(result.garment->panels[0].name == "LOOSE");
 }
@@ -230,7 +229,7 @@ TEST_CASE("a half is opened about its mirror line") {
     for (const Point2& p : half) d.point("2", p);
     d.point("4", {100, 0}).point("13", {100, 200}).end_block();
   });
-  const io::DxfResult result = read(text);
+  const io::DxfResult result = dxf_of(text);
   const design::Panel& panel = garment_of(result).panels.at(0);
   CHECK(area(panel) == Approx(2 * polygon(half)));
   CHECK(panel.notches.size() == 2);
@@ -245,14 +244,14 @@ TEST_CASE("a half is opened about its mirror line") {
         .at(11, {0, 500})
         .end_block();
   });
-  CHECK(area(garment_of(read(open)).panels.at(0)) == Approx(2 * polygon(half)));
+  CHECK(area(garment_of(dxf_of(open)).panels.at(0)) == Approx(2 * polygon(half)));
 }
 
 TEST_CASE("cut and stitch lines make allowances") {
   const std::vector<Point2> inner{{10, 10}, {290, 10}, {290, 390}, {10, 390}},
       outer{{0, 0}, {300, 0}, {300, 400}, {0, 400}};
   for (bool swapped : {false, true}) {
-    const io::DxfResult result = read(style([&](Draft& d) {
+    const io::DxfResult result = dxf_of(style([&](Draft& d) {
       d.block("A")
           .polyline(swapped ? "14" : "1", outer, true)
           .polyline(swapped ? "1" : "14", inner, true)
@@ -279,13 +278,13 @@ TEST_CASE("sizes: the sample size, a chosen one, those in block names") {
           d.polyline("1", {{0, 0}, {w, 0}, {w, 400}, {0, 400}}, true).end_block();
         }
     });
-    io::DxfResult result = read(text);
+    io::DxfResult result = dxf_of(text);
     CHECK(result.sizes == std::vector<std::string>{"S", "M", "L"});
     REQUIRE(garment_of(result).panels.size() == 2);
     CHECK(result.garment->panels[1].name == "BACK");
     CHECK(area(result.garment->panels[0]) == Approx(0.22 * 0.4));
-    CHECK(area(garment_of(read(text, "l")).panels.at(0)) == Approx(0.24 * 0.4));
-    result = read(text, "XXL");
+    CHECK(area(garment_of(dxf_of(text, "l")).panels.at(0)) == Approx(0.24 * 0.4));
+    result = dxf_of(text, "XXL");
     CHECK(!result.garment);
     CHECK(pattern_test::all_messages(result.findings).find("`S`, `M`, `L`") != std::string::npos);
     CHECK(pattern_test::has_code(result.findings, "G0967"));
@@ -307,14 +306,14 @@ TEST_CASE("units: stated, and what cannot be") {
                         Case{"units: METRIC", 31, 0.31, true}, Case{"Nothing: x", 400, 0.4, true},
                         Case{"Units: ENGLISH", 500, 0.5, true}, Case{"Units: METRIC", 9000, 0.9, true}}) {
     INFO(c.facts << " " << c.side);
-    const io::DxfResult result = read(style(square(c.side), c.facts));
+    const io::DxfResult result = dxf_of(style(square(c.side), c.facts));
     CHECK(area(garment_of(result).panels.at(0)) == Approx(c.metres * c.metres));
     CHECK(pattern_test::has_code(result.findings, "G0966") == c.warns);
   }
 }
 
 TEST_CASE("arcs, circles and blocks in blocks") {
-  const io::DxfResult result = read(style([](Draft& d) {
+  const io::DxfResult result = dxf_of(style([](Draft& d) {
     d.block("PART").entity("LINE", "1").at(10, {0, 0}).at(11, {200, 0}).end_block();
     d.block("D").pair(0, "INSERT").pair(8, "1").pair(2, "PART").at(10, {0, 0});
     d.entity("ARC", "1").at(10, {100, 0}).number(40, 100 * d.scale).number(50, 0).number(51, 180);
@@ -333,13 +332,13 @@ TEST_CASE("arcs, circles and blocks in blocks") {
         .end_block();
     d.block("B").pair(0, "INSERT").pair(8, "1").pair(2, "B").at(10, {0, 0}).end_block();
   });
-  const io::DxfResult deep = read(loop);
+  const io::DxfResult deep = dxf_of(loop);
   CHECK(garment_of(deep).panels.size() == 1);
   CHECK(pattern_test::has_code(deep.findings, "G0964"));
 }
 
 TEST_CASE("formatted text, grade rules, other layers, nested sizes") {
-  const io::DxfResult mtext = read(style([](Draft& d) {
+  const io::DxfResult mtext = dxf_of(style([](Draft& d) {
     d.block("A")
         .entity("MTEXT", "1")
         .at(10, {0, 0})
@@ -354,7 +353,7 @@ TEST_CASE("formatted text, grade rules, other layers, nested sizes") {
   CHECK(mtext.garment->panels[0].holes.size() == 1);
   for (const std::string& note : mtext.notes) CHECK(note.find('#') == std::string::npos);
   const io::DxfResult layers =
-      read(style([](Draft& d) { d.block("A").polyline("PIECES", front(), true).end_block(); }));
+      dxf_of(style([](Draft& d) { d.block("A").polyline("PIECES", front(), true).end_block(); }));
   CHECK(garment_of(layers).panels.size() == 1);
 }
 
@@ -373,7 +372,7 @@ TEST_CASE("lines rounded to hundredths of an inch are chained") {
         d.end_block();
       },
       "Units: ENGLISH", inch);
-  CHECK(area(garment_of(read(text)).panels.at(0)) == Approx(polygon(front())).epsilon(1e-2));
+  CHECK(area(garment_of(dxf_of(text)).panels.at(0)) == Approx(polygon(front())).epsilon(1e-2));
 }
 
 TEST_CASE("what is wrong with a file is said with its line") {
@@ -399,14 +398,14 @@ TEST_CASE("what is wrong with a file is said with its line") {
       {good.substr(0, good.size() - 12), "G0963", "breaks off", true},
   };
   for (const Case& c : cases) {
-    const io::DxfResult result = read(c.text);
+    const io::DxfResult result = dxf_of(c.text);
     INFO(c.code << " " << c.words << "\n" << pattern_test::all_messages(result.findings));
     CHECK(pattern_test::has_code(result.findings, c.code));
     CHECK(pattern_test::all_messages(result.findings).find(c.words) != std::string::npos);
     CHECK(result.garment.has_value() == c.read);
     CHECK(result.garment.has_value() != has_errors(result.findings));
   }
-  const io::DxfResult open = read(style([](Draft& d) {
+  const io::DxfResult open = dxf_of(style([](Draft& d) {
     d.block("A").polyline("1", front(), true).end_block();
     d.block("B").polyline("1", {{0, 0}, {100, 0}, {100, 100}}, false).end_block();
   }));
@@ -422,7 +421,7 @@ TEST_CASE("a file cut anywhere is read or refused, and says why") {
     d.block("A").polyline("1", front(), true).point("4", {150, 0}).end_block();
   });
   for (std::size_t n = 0; n < good.size(); n += 3) {
-    const io::DxfResult result = read(good.substr(0, n));
+    const io::DxfResult result = dxf_of(good.substr(0, n));
     CHECK(result.garment.has_value() != has_errors(result.findings));
     CHECK(!result.findings.empty());
   }
@@ -430,7 +429,7 @@ TEST_CASE("a file cut anywhere is read or refused, and says why") {
 
 TEST_CASE("text comes as UTF-8, Latin-1 or escapes") {
   for (const char* name : {"\xC3\x89L\xC3\x89GANT", "\xC9L\xC9GANT", "\\U+00C9L\\U+00C9GANT"}) {
-    const io::DxfResult result = read(style([&](Draft& d) {
+    const io::DxfResult result = dxf_of(style([&](Draft& d) {
       d.block("A").words("1", std::string("Annotation: ") + name).polyline("1", front(), true).end_block();
     }));
     garment_of(result);
@@ -442,7 +441,7 @@ TEST_CASE("text comes as UTF-8, Latin-1 or escapes") {
 }
 
 TEST_CASE("what is written is read back as the same pieces") {
-  const io::DxfResult first = read(style([](Draft& d) {
+  const io::DxfResult first = dxf_of(style([](Draft& d) {
     d.block("FRONT").words("1", "Piece Name: FRONT").polyline("1", front(), true);
     marks(d);
     d.point("4", {150, 0})
@@ -458,7 +457,7 @@ TEST_CASE("what is written is read back as the same pieces") {
     for (design::Edge& edge : garment.panels[0].edges) edge.allowance = allowance;
     const std::string text = io::write_dxf(garment).text;
     CHECK(text == io::write_dxf(garment).text);
-    const io::DxfResult again = read(text);
+    const io::DxfResult again = dxf_of(text);
     const design::Garment& back = garment_of(again);
     CHECK(again.findings.empty());
     REQUIRE(back.panels.size() == garment.panels.size());

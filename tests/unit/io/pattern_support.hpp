@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "runtime/io/pattern_json.hpp"
+#include "runtime/io/pattern_panel.hpp"
 
 namespace pattern_test {
 
@@ -34,6 +35,8 @@ inline std::vector<std::string> data_files() {
   std::sort(files.begin(), files.end());
   return files;
 }
+
+inline double area(const garment::design::Panel& panel) { return garment::io::signed_area(panel.edges); }
 
 inline bool has_code(const garment::Findings& findings, const std::string& code) {
   return std::any_of(findings.begin(), findings.end(),

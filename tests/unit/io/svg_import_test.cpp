@@ -10,6 +10,7 @@
 
 using namespace garment;
 using design::Point2;
+using pattern_test::area;
 
 namespace {
 
@@ -20,7 +21,7 @@ std::string drawing(const std::string& body,
   return "<?xml version=\"1.0\"?><svg xmlns=\"http://www.w3.org/2000/svg\" " + size + ">" + body + "</svg>";
 }
 
-io::SvgResult read(const std::string& text) {
+io::SvgResult svg_of(const std::string& text) {
   io::SvgOptions options;
   options.fabric.name = "cloth";
   return io::read_svg(text, options);
@@ -31,8 +32,6 @@ const design::Garment& garment_of(const io::SvgResult& result) {
   REQUIRE(result.garment);
   return *result.garment;
 }
-
-double area(const design::Panel& panel) { return io::signed_area(panel.edges); }
 
 }  // namespace
 
@@ -60,19 +59,19 @@ TEST_CASE("shapes and path commands have the areas that geometry says, mm") {
   };
   for (const Case& c : cases) {
     INFO(c.body);
-    const io::SvgResult result = read(drawing(c.body));
+    const io::SvgResult result = svg_of(drawing(c.body));
     if (c.edges == 0) continue;
     const design::Garment& garment = garment_of(result);
     REQUIRE(garment.panels.size() == 1);
     CHECK(area(garment.panels[0]) * 1e6 == Approx(c.mm2).epsilon(1e-6));
     CHECK(garment.panels[0].edges.size() == c.edges);
   }
-  CHECK(garment_of(read(drawing(cases[13].body))).panels[0].holes.size() == 1);
+  CHECK(garment_of(svg_of(drawing(cases[13].body))).panels[0].holes.size() == 1);
 }
 
 TEST_CASE("curves stay what they are") {
   const io::SvgResult result =
-      read(drawing(R"(<path d="M0 0 L50 0 Q 60 20 50 40 C 40 50 30 60 20 40 A 20 20 0 0 1 0 20 Z"/>)"));
+      svg_of(drawing(R"(<path d="M0 0 L50 0 Q 60 20 50 40 C 40 50 30 60 20 40 A 20 20 0 0 1 0 20 Z"/>)"));
   const design::Panel& panel = garment_of(result).panels.at(0);
   std::vector<int> kinds(6, 0);
   for (const design::Edge& edge : panel.edges) ++kinds[edge.curve.shape().index()];
@@ -90,15 +89,15 @@ TEST_CASE("transforms move, turn, mirror and stretch") {
                         Case{"scale(-1,1)", 1, true}, Case{"scale(2 1)", 2, false},
                         Case{"skewX(30)", 1, false}, Case{"matrix(0 1 -1 0 3 4)", 1, true}}) {
     INFO(c.transform);
-    const io::SvgResult result = read(drawing(std::string("<g transform=\"") + c.transform +
-                                              "\"><circle cx=\"20\" cy=\"20\" r=\"10\"/></g>"));
+    const io::SvgResult result = svg_of(drawing(std::string("<g transform=\"") + c.transform +
+                                                "\"><circle cx=\"20\" cy=\"20\" r=\"10\"/></g>"));
     const design::Panel& panel = garment_of(result).panels.at(0);
     CHECK(area(panel) * 1e6 == Approx(circle * c.factor).epsilon(5e-4));
     CHECK(std::holds_alternative<geometry::Arc>(panel.edges[0].curve.shape()) == c.arcs);
   }
   CHECK(!io::svg_transform("turn(3)"));
   CHECK(pattern_test::has_code(
-      read(drawing("<g transform=\"turn(3)\"><circle r=\"10\"/></g><rect width=\"9\" height=\"9\"/>"))
+      svg_of(drawing("<g transform=\"turn(3)\"><circle r=\"10\"/></g><rect width=\"9\" height=\"9\"/>"))
           .findings,
       "G0971"));
 }
@@ -117,14 +116,14 @@ TEST_CASE("units come from width, height and viewBox") {
                         Case{R"(viewBox="0 0 960 960")", 50 * 0.0254 / 96, true},
                         Case{R"(width="100%" height="100%")", 50 * 0.0254 / 96, true}}) {
     INFO(c.size);
-    const io::SvgResult result = read(drawing(square, c.size));
+    const io::SvgResult result = svg_of(drawing(square, c.size));
     CHECK(area(garment_of(result).panels.at(0)) == Approx(c.side * c.side));
     CHECK(pattern_test::has_code(result.findings, "G0972") == c.warns);
   }
 }
 
 TEST_CASE("names come from labels, ids and groups; what is not shown is not read") {
-  const io::SvgResult result = read(drawing(
+  const io::SvgResult result = svg_of(drawing(
       R"(<defs><rect id="no" width="20" height="20"/></defs><rect width="200" height="100"/>)"
       R"(<g id="layer" xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape"><rect inkscape:label="Front 1" id="r1" width="20" height="20"/>)"
       R"(<rect id="back" x="30" width="20" height="20"/><rect x="60" width="20" height="20"/></g>)"
@@ -155,7 +154,7 @@ TEST_CASE("a drawing of ours comes back as the same panels") {
     panel.notches.push_back({"hip", {}, "side", 0.2});
     garment.panels.push_back(std::move(panel));
   }
-  const io::SvgResult result = read(io::write_pattern_svg(garment));
+  const io::SvgResult result = svg_of(io::write_pattern_svg(garment));
   CHECK(result.findings.empty());
   const design::Garment& back = garment_of(result);
   REQUIRE(back.panels.size() == 2);
@@ -190,7 +189,7 @@ TEST_CASE("what is wrong with a drawing is said") {
                         {drawing("<path d=\"nonsense\"/><rect width=\"9\" height=\"9\"/>"), "G0971", true},
                         {drawing(deep), "G0974", false}};
   for (const Case& c : cases) {
-    const io::SvgResult result = read(c.text);
+    const io::SvgResult result = svg_of(c.text);
     INFO(c.text.substr(0, 100) << pattern_test::all_messages(result.findings));
     CHECK(pattern_test::has_code(result.findings, c.code));
     CHECK(result.garment.has_value() == c.read);

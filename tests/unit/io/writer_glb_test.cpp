@@ -22,7 +22,7 @@ std::uint32_t u32(const std::string& b, std::size_t at) {
   return value;
 }
 
-Glb read(const std::string& b) {
+Glb glb_of(const std::string& b) {
   REQUIRE(b.substr(0, 4) == "glTF");
   CHECK(u32(b, 4) == 2);
   CHECK(u32(b, 8) == b.size());
@@ -53,7 +53,7 @@ std::vector<T> values(const Glb& glb, int accessor, std::size_t per_item) {
 TEST_CASE("GLB holds a primitive per panel and a node per body", "[writer]") {
   const test::DrapedSkirt skirt = test::make_skirt(24, 8);
   const model::Model& m = skirt.model;
-  const Glb glb = read(io::write_glb(m, skirt.state, {test::make_egg(12, 8)}));
+  const Glb glb = glb_of(io::write_glb(m, skirt.state, {test::make_egg(12, 8)}));
   REQUIRE(glb.head["nodes"].size() == 2);
   CHECK(glb.head["nodes"][0]["name"] == "garment");
   CHECK(glb.head["nodes"][1]["name"] == "form");
@@ -81,7 +81,7 @@ TEST_CASE("GLB holds a primitive per panel and a node per body", "[writer]") {
 }
 
 TEST_CASE("GLB of nothing has no empty arrays", "[writer]") {
-  const Glb glb = read(io::write_glb({}, {}, {}));
+  const Glb glb = glb_of(io::write_glb({}, {}, {}));
   CHECK(glb.binary.empty());
   CHECK_FALSE(glb.head.contains("nodes"));
   CHECK_FALSE(glb.head.contains("buffers"));

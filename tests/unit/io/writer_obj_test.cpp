@@ -16,7 +16,7 @@ struct Obj {
   std::vector<std::string> groups, objects;
 };
 
-Obj read(const std::string& text) {
+Obj obj_of(const std::string& text) {
   Obj out;
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
@@ -46,7 +46,7 @@ Obj read(const std::string& text) {
 TEST_CASE("OBJ reads back to the same doubles, welded along seams", "[writer]") {
   test::DrapedSkirt skirt = test::make_skirt(24, 8);
   skirt.state.position[3] = {1.0 / 3, 5e-324, -1.7976931348623157e308};
-  const Obj obj = read(io::write_obj(skirt.model, skirt.state));
+  const Obj obj = obj_of(io::write_obj(skirt.model, skirt.state));
   REQUIRE(obj.v.size() == skirt.model.n_particles());
   for (std::size_t p = 0; p < obj.v.size(); ++p)
     for (int d = 0; d < 3; ++d) REQUIRE(obj.v[p][d] == skirt.state.position[p][d]);
@@ -66,7 +66,7 @@ TEST_CASE("OBJ names hold no blanks and no line ends", "[writer]") {
   test::DrapedSkirt skirt = test::make_skirt(8, 2);
   skirt.model.panels[0].name = "front left\nf 1 1 1";
   skirt.model.panels[1].name = "";
-  const Obj obj = read(io::write_obj(skirt.model, skirt.state));
+  const Obj obj = obj_of(io::write_obj(skirt.model, skirt.state));
   CHECK(obj.groups == std::vector<std::string>{"front_left_f_1_1_1", "unnamed"});
   CHECK(obj.f.size() == skirt.model.n_triangles());
 }
@@ -74,7 +74,7 @@ TEST_CASE("OBJ names hold no blanks and no line ends", "[writer]") {
 TEST_CASE("body OBJ counts on over bodies", "[writer]") {
   body::Body a = test::make_egg(8, 6), b = test::make_egg(10, 7);
   b.name = "stand";
-  const Obj obj = read(io::write_body_obj({a, b}));
+  const Obj obj = obj_of(io::write_body_obj({a, b}));
   CHECK(obj.objects == std::vector<std::string>{"form", "stand"});
   CHECK(obj.v.size() == a.mesh.vertices.size() + b.mesh.vertices.size());
   const auto& last = obj.f.back();

@@ -21,7 +21,7 @@ design::Garment two_sheets() {
   return g;
 }
 
-model::Model build(const design::Garment& g) {
+model::Model valid_model(const design::Garment& g) {
   modeller::ModelResult result = modeller::build_model(g, {});
   for (const Finding& f : result.findings) UNSCOPED_INFO(f.code << " " << f.message);
   REQUIRE(result.model);
@@ -71,11 +71,11 @@ design::Garment zipped(double open) {
 
 TEST_CASE("a button ties its place to its hole, and the hole to the next") {
   design::Garment g = two_sheets();
-  const double cloth = mass_of(build(g));
+  const double cloth = mass_of(valid_model(g));
   g.buttons = {button(1, {0.071, 0.113}, {{0, {0.064, 0.121}}, {0, {0.031, 0.2}}})};
   g.buttons[0].mass = 2e-3;
   g.buttons[0].shank = 4e-3;
-  const model::Model m = build(g);
+  const model::Model m = valid_model(g);
   REQUIRE(m.tie.size() == 2);
   CHECK((end_of(m, 0, 0) - Vector3d(0.071, 0.113, 0.03)).norm() < 1e-12);
   CHECK((end_of(m, 0, 3) - Vector3d(0.064, 0.121, 0)).norm() < 1e-12);
@@ -92,7 +92,7 @@ TEST_CASE("a button ties its place to its hole, and the hole to the next") {
   CHECK(m.panels[0].mass + m.panels[1].mass == Approx(cloth));
   // A point on the very border of the pattern lies on the cloth.
   g.buttons[0].point = {0.2, 0.3};
-  CHECK((end_of(build(g), 0, 0) - Vector3d(0.2, 0.3, 0.03)).norm() < 1e-12);
+  CHECK((end_of(valid_model(g), 0, 0) - Vector3d(0.2, 0.3, 0.03)).norm() < 1e-12);
 }
 
 TEST_CASE("a button or tack that is not on the cloth of declared panels is refused") {
@@ -113,7 +113,7 @@ TEST_CASE("a tack sews a stitch every 2 cm to the nearest place of the other pan
   design::Garment g = two_sheets();
   g.panels[1].placement = test::flat(0.01, 0.03);
   g.tacks = {{"hold", {3}, {0, 1}, {whole(g, 0, 1), whole(g, 0, 2)}, -1}};
-  const model::Model m = build(g);
+  const model::Model m = valid_model(g);
   REQUIRE(m.tie.size() == 15 + 10 + 1);  // the corner once
   for (std::size_t t = 0; t < m.tie.size(); ++t) {
     const Vector3d a = end_of(m, t, 0), b = end_of(m, t, 3);
@@ -136,10 +136,10 @@ TEST_CASE("a tack over a region sews a grid of stitches, a finer one where it is
   region.parts = {{0, shape}};
   g.regions = {region};
   g.tacks = {{"hold", {3}, {0, 1}, {}, 0}};
-  CHECK(build(g).tie.size() == 9);  // (+-1, +-1) cells of 2 cm, within 3 cm
+  CHECK(valid_model(g).tie.size() == 9);  // (+-1, +-1) cells of 2 cm, within 3 cm
   g.regions[0].parts[0].shape.points = {{0.11, 0.21}};
   g.regions[0].parts[0].shape.size = 0.008;
-  const model::Model m = build(g);
+  const model::Model m = valid_model(g);
   REQUIRE(m.tie.size() == 1);
   CHECK((end_of(m, 0, 0) - Vector3d(0.11, 0.21, 0)).norm() < 1e-12);
 }
@@ -148,9 +148,10 @@ TEST_CASE("a zip is a seam as far as it is closed") {
   const std::size_t apart = [] {
     design::Garment g = zipped(0);
     g.zips.clear();
-    return build(g).n_particles();
+    return valid_model(g).n_particles();
   }();
-  const model::Model closed = build(zipped(0)), half = build(zipped(0.5)), open = build(zipped(1));
+  const model::Model closed = valid_model(zipped(0)), half = valid_model(zipped(0.5)),
+                     open = valid_model(zipped(1));
   CHECK(apart - closed.n_particles() == 31);
   CHECK(apart - half.n_particles() == 16);
   CHECK(apart == open.n_particles());
@@ -163,12 +164,12 @@ TEST_CASE("a zip is a seam as far as it is closed") {
 }
 
 TEST_CASE("a garment without closures has the hash it had before there were ties") {
-  model::Model m = build(two_sheets());
+  model::Model m = valid_model(two_sheets());
   CHECK(m.tie.empty());
   const std::uint64_t hash = model::model_hash(m);
   m.closures.push_back({"top", {}, 1e-3});
   CHECK(model::model_hash(m) == hash);
   design::Garment g = two_sheets();
   g.buttons = {button(1, {0.071, 0.113}, {{0, {0.064, 0.121}}})};
-  CHECK(model::model_hash(build(g)) != hash);
+  CHECK(model::model_hash(valid_model(g)) != hash);
 }

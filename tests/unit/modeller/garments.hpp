@@ -24,6 +24,12 @@ struct Random {
   double operator()(double low, double high) { return low + (high - low) * (*this)(); }
 };
 
+inline double sum(const std::vector<double>& values) {
+  double total = 0;
+  for (double x : values) total += x;
+  return total;
+}
+
 inline design::Fabric cloth() {
   design::Fabric f;
   f.name = "cloth";

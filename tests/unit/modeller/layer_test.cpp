@@ -13,15 +13,10 @@
 
 using namespace garment;
 using test::build;
+using test::sum;
 using design::RegionShape;
 
 namespace {
-
-double sum(const std::vector<double>& values) {
-  double total = 0;
-  for (double x : values) total += x;
-  return total;
-}
 
 /// A second cloth, of other stiffness in every way.
 design::Fabric canvas() {
@@ -50,7 +45,7 @@ design::Layer layer(int fabric, bool fused, double grain_angle = 0, int order = 
 }
 
 /// 30 x 40 cm with these layers all over.
-design::Garment sheet(std::vector<design::Layer> layers) {
+design::Garment layered_sheet(std::vector<design::Layer> layers) {
   design::Garment g = test::single(test::rectangle("cloth", 0.3, 0.4, 0.01));
   g.fabrics.push_back(canvas());
   g.layers = std::move(layers);
@@ -60,7 +55,7 @@ design::Garment sheet(std::vector<design::Layer> layers) {
 double warp_rigidity(const model::Model& m) { return m.bend_rigidity[0]; }
 double weft_rigidity(const model::Model& m) { return m.bend_rigidity[1]; }
 
-design::Region above(double y) {
+design::Region region_above(double y) {
   design::Region r;
   r.name = "part";
   RegionShape shape;
@@ -73,7 +68,7 @@ design::Region above(double y) {
 }  // namespace
 
 TEST_CASE("basted layers add mass, thickness, tension, shear and bending") {
-  const model::Model plain = build(sheet({})), m = build(sheet({layer(1, false)}));
+  const model::Model plain = build(layered_sheet({})), m = build(layered_sheet({layer(1, false)}));
   const design::Fabric face = test::cloth(), inner = canvas();
   CHECK(sum(m.mass) == Approx((face.areal_density + inner.areal_density) * 0.12).epsilon(1e-12));
   CHECK(m.panels[0].mass == Approx(sum(m.mass)).epsilon(1e-12));
@@ -96,19 +91,19 @@ TEST_CASE("n basted layers of one cloth bend n + 1 times as stiffly; their order
   std::vector<design::Layer> layers;
   for (int n = 1; n < 4; ++n) {
     layers.push_back(layer(0, false, 0, n - 1));
-    const model::Model m = build(sheet(layers));
+    const model::Model m = build(layered_sheet(layers));
     CHECK(warp_rigidity(m) == Approx((n + 1) * 1.3e-5));
     CHECK(weft_rigidity(m) == Approx((n + 1) * 0.7e-5));
   }
-  const model::Model one = build(sheet({layer(0, false, 0, 0), layer(1, false, 0.3, 1)})),
-                     other = build(sheet({layer(1, false, 0.3, 0), layer(0, false, 0, 1)}));
+  const model::Model one = build(layered_sheet({layer(0, false, 0, 0), layer(1, false, 0.3, 1)})),
+                     other = build(layered_sheet({layer(1, false, 0.3, 0), layer(0, false, 0, 1)}));
   for (std::size_t k = 0; k < one.bend.size(); ++k) CHECK(one.bend_rigidity[k] == Approx(other.bend_rigidity[k]));
   CHECK(sum(one.mass) == Approx(sum(other.mass)));
 }
 
 TEST_CASE("two fused cloths of one kind are stiffer by half the coupled membrane") {
   // sum K (z - z0)^2 of two equal plies at the distance T of their middles is K T^2 / 2.
-  const model::Model m = build(sheet({layer(0, true)}));
+  const model::Model m = build(layered_sheet({layer(0, true)}));
   const design::Fabric f = test::cloth();
   for (int direction : {0, 1}) {
     const double k = modeller::make_tensile_law(f.tensile[direction]).slope.front(), t = f.thickness;
@@ -116,7 +111,7 @@ TEST_CASE("two fused cloths of one kind are stiffer by half the coupled membrane
     CHECK((direction == 0 ? warp_rigidity(m) : weft_rigidity(m)) == Approx(expected).epsilon(1e-9));
   }
   // Another cloth on top shifts the neutral plane: by the formula for plies along one line.
-  design::Garment g = sheet({layer(1, true)});
+  design::Garment g = layered_sheet({layer(1, true)});
   g.fabrics[0].shear_rigidity = g.fabrics[1].shear_rigidity = 0;
   const design::Fabric c = canvas();
   const double k0 = modeller::make_tensile_law(f.tensile[0]).slope.front(), k1 = modeller::make_tensile_law(c.tensile[0]).slope.front();
@@ -126,11 +121,11 @@ TEST_CASE("two fused cloths of one kind are stiffer by half the coupled membrane
 
 TEST_CASE("a layer's grain may lie at any angle") {
   const design::Fabric face = test::cloth(), c = canvas();
-  const model::Model across = build(sheet({layer(1, false, portable::kPi / 2)}));
+  const model::Model across = build(layered_sheet({layer(1, false, portable::kPi / 2)}));
   CHECK(warp_rigidity(across) == Approx(face.bending_rigidity[0] + c.bending_rigidity[1]).epsilon(1e-9));
   CHECK(weft_rigidity(across) == Approx(face.bending_rigidity[1] + c.bending_rigidity[0]).epsilon(1e-9));
   // B(45) = (B1 + B2) / 4 + Ct, G(45) = (K1 + K2) / 4
-  const model::Model bias = build(sheet({layer(1, false, portable::kPi / 4)}));
+  const model::Model bias = build(layered_sheet({layer(1, false, portable::kPi / 4)}));
   const double b45 = (c.bending_rigidity[0] + c.bending_rigidity[1]) / 4 + c.twist_rigidity;
   CHECK(warp_rigidity(bias) == Approx(face.bending_rigidity[0] + b45).epsilon(1e-9));
   CHECK(weft_rigidity(bias) == Approx(face.bending_rigidity[1] + b45).epsilon(1e-9));
@@ -141,22 +136,22 @@ TEST_CASE("a layer's grain may lie at any angle") {
 
 TEST_CASE("a layer in a region weighs as much as its area, on and off the grid") {
   for (double y : {0.2, 0.2025, 0.205, 0.2075}) {
-    design::Garment g = sheet({layer(1, false)});
-    g.regions = {above(y)};
+    design::Garment g = layered_sheet({layer(1, false)});
+    g.regions = {region_above(y)};
     g.layers[0].region = 0;
-    const double added = sum(build(g).mass) - sum(build(sheet({})).mass);
+    const double added = sum(build(g).mass) - sum(build(layered_sheet({})).mass);
     CHECK(added == Approx(0.15 * 0.3 * (0.4 - y)).epsilon(1e-9));
   }
   // The fitted stencils of the border carry it too: the same layer over a region that is everything.
-  design::Garment all = sheet({layer(1, true, 0.4)}), part = all;
-  part.regions = {above(-1)};
+  design::Garment all = layered_sheet({layer(1, true, 0.4)}), part = all;
+  part.regions = {region_above(-1)};
   part.layers[0].region = 0;
   CHECK(model::model_hash(build(all)) == model::model_hash(build(part)));
 }
 
 TEST_CASE("a region that is shrunk or drawn out has shorter or longer threads at rest") {
-  design::Garment g = sheet({});
-  g.regions = {above(-1)};
+  design::Garment g = layered_sheet({});
+  g.regions = {region_above(-1)};
   design::Press press;
   press.kind = design::Press::Kind::shrink;
   press.region = 0;
@@ -164,7 +159,7 @@ TEST_CASE("a region that is shrunk or drawn out has shorter or longer threads at
   press.weft = 0.03;
   press.factor = 0.5;
   g.presses = {press};
-  const model::Model plain = build(sheet({})), m = build(g);
+  const model::Model plain = build(layered_sheet({})), m = build(g);
   REQUIRE(m.spring.size() == plain.spring.size());
   for (std::size_t s = 0; s < m.spring.size(); ++s) {
     const bool warp = std::abs(plain.start[plain.spring[s][0]].x() - plain.start[plain.spring[s][1]].x()) < 1e-9;
@@ -177,14 +172,14 @@ TEST_CASE("a region that is shrunk or drawn out has shorter or longer threads at
 }
 
 TEST_CASE("a region as large as its panel is all of it, and hems in parts lie once") {
-  design::Garment g = sheet({layer(1, false)});
-  design::Region all = above(0);
+  design::Garment g = layered_sheet({layer(1, false)});
+  design::Region all = region_above(0);
   all.parts[0].shape.kind = RegionShape::Kind::polygon;
   all.parts[0].shape.points = {{0, 0}, {0.3, 0}, {0.3, 0.4}, {0, 0.4}};
   g.regions = {all};
   g.layers[0].region = 0;
-  CHECK(sum(build(g).mass) == Approx(sum(build(sheet({layer(1, false)})).mass)).epsilon(1e-9));
-  design::Garment one = sheet({}), two = one;
+  CHECK(sum(build(g).mass) == Approx(sum(build(layered_sheet({layer(1, false)})).mass)).epsilon(1e-9));
+  design::Garment one = layered_sheet({}), two = one;
   design::Hem hem;
   hem.name = "hem";
   hem.parts = {{0, 0, 0, 0.3}};
@@ -196,13 +191,13 @@ TEST_CASE("a region as large as its panel is all of it, and hems in parts lie on
 }
 
 TEST_CASE("a hem is its own cloth twice, as wide as it is turned") {
-  design::Garment g = sheet({});
+  design::Garment g = layered_sheet({});
   design::Hem hem;
   hem.name = "hem";
   hem.parts = {{0, 0, 0, 0.3}};
   hem.turn = 0.04;
   g.hems = {hem};
-  const model::Model plain = build(sheet({})), m = build(g);
+  const model::Model plain = build(layered_sheet({})), m = build(g);
   CHECK(sum(m.mass) - sum(plain.mass) == Approx(0.2 * 0.3 * 0.04).epsilon(1e-9));
   for (std::size_t k = 0; k < m.bend.size(); ++k) {
     const double up = m.start[m.bend[k][1]].y() - 0.04, in = up < -1e-9 ? 2 : up < 1e-9 ? 1.5 : 1;

@@ -10,16 +10,9 @@
 
 using namespace garment;
 using Eigen::Vector3d;
+using test::build_on_woman;
 
 namespace {
-
-model::Model build(const design::Garment& g) {
-  modeller::ModelResult r = modeller::build_model(g, test::woman());
-  for (const Finding& f : r.findings)
-    if (f.severity == Severity::error) FAIL(f.code << " " << f.message);
-  REQUIRE(r.model);
-  return std::move(*r.model);
-}
 
 std::vector<Vector3d> points_of(const model::Model& m, const std::vector<std::string>& panels) {
   std::vector<Vector3d> points;
@@ -100,7 +93,7 @@ design::Garment trousers(double spread, double inseam = 0.55) {
 }  // namespace
 
 TEST_CASE("a sleeve drawn for another pose comes round its own arm") {
-  model::Model m = build(tee());
+  model::Model m = build_on_woman(tee());
   const body::Body& body = test::woman()[0];
   CHECK(test::least_distance(m, body) > 0);
   const auto& arm = body.parts.at("arm.left").sections;
@@ -135,14 +128,14 @@ TEST_CASE("what was drawn for a shorter person is lifted onto the shoulders, wha
     for (const Vector3d& p : m.start) y = std::max(y, p.y());
     return y;
   };
-  const double drawn = top(build(right)), lifted = top(build(low));
+  const double drawn = top(build_on_woman(right)), lifted = top(build_on_woman(low));
   CHECK(lifted > drawn - 0.06);
   CHECK(lifted < drawn + 0.03);
 }
 
 TEST_CASE("trousers drawn too high or astride come round their own legs") {
   for (double spread : {0.0, 0.35}) {
-    model::Model m = build(trousers(spread));
+    model::Model m = build_on_woman(trousers(spread));
     const body::Body& body = test::woman()[0];
     CHECK(test::least_distance(m, body) > 0);
     for (std::string side : {"left", "right"}) {
@@ -159,7 +152,7 @@ TEST_CASE("trousers drawn too high or astride come round their own legs") {
 
 TEST_CASE("trousers that reach the floor begin above the feet") {
   const body::Body& body = test::woman()[0];
-  model::Model m = build(trousers(0, 0.95));
+  model::Model m = build_on_woman(trousers(0, 0.95));
   CHECK(test::least_distance(m, body) > 0);
   double low = 1e300, high = -1e300;
   for (const Vector3d& p : m.start) low = std::min(low, p.y()), high = std::max(high, p.y());
@@ -177,7 +170,7 @@ TEST_CASE("panels that stand in the body move out of it, each to its own side") 
               test::rectangle("back", 0.5, 0.3, 0.02, {-0.25, 0})};
   lay(g.panels[0], {0, waist - 0.25, 0.08});
   lay(g.panels[1], {0, waist - 0.25, -0.06});
-  model::Model m = build(g);
+  model::Model m = build_on_woman(g);
   CHECK(test::least_distance(m, body) > 0);
   for (const Vector3d& p : points_of(m, {"front"})) CHECK(p.z() > 0.08);
   for (const Vector3d& p : points_of(m, {"back"})) CHECK(p.z() < -0.06);
@@ -208,13 +201,13 @@ TEST_CASE("fronts drawn edge to edge move apart, sewn ones stay together") {
     for (const Vector3d& p : points_of(m, {"left"})) left = std::min(left, p.x());
     return left - right;
   };
-  CHECK(inner(build(g)) == Approx(0.02));
+  CHECK(inner(build_on_woman(g)) == Approx(0.02));
   g.seams = {test::seam("middle", {test::whole(g, 0, 3)}, {test::whole(g, 1, 1, true)})};
-  CHECK(inner(build(g)) == Approx(0).margin(1e-12));
+  CHECK(inner(build_on_woman(g)) == Approx(0).margin(1e-12));
 }
 
 TEST_CASE("a start in the body is cleared the same way on any number of threads, and counted") {
-  model::Model m = build(tee());
+  model::Model m = build_on_woman(tee());
   const body::Body& body = test::woman()[0];
   for (Vector3d& p : m.start) p.z() *= 0.6;
   model::Model again = m;

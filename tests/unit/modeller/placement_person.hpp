@@ -5,6 +5,7 @@
 #include "runtime/base/host.hpp"
 #include "runtime/body/body.hpp"
 #include "runtime/model/model.hpp"
+#include "runtime/modeller/modeller.hpp"
 
 namespace garment::test {
 
@@ -60,6 +61,15 @@ inline const std::vector<body::Body>& woman() {
     return all;
   }();
   return bodies;
+}
+
+/// The model of a garment that she wears; the test fails where there is none.
+inline model::Model build_on_woman(const design::Garment& g) {
+  modeller::ModelResult r = modeller::build_model(g, woman());
+  for (const Finding& f : r.findings)
+    if (f.severity == Severity::error) FAIL(f.code << " " << f.message);
+  REQUIRE(r.model);
+  return std::move(*r.model);
 }
 
 /// Least distance of the particles from the body, m; 1 where none is near.

@@ -9,6 +9,7 @@
 using namespace garment;
 using Eigen::Vector3d;
 using modeller::Vector2d;
+using test::build_on_woman;
 
 namespace {
 
@@ -19,14 +20,6 @@ void wrap(design::Panel& panel, const char* part, const char* edge, const char* 
   panel.placement.part = part;
   panel.placement.edge = edge;
   panel.placement.level = level;
-}
-
-model::Model build(const design::Garment& g) {
-  modeller::ModelResult r = modeller::build_model(g, test::woman());
-  for (const Finding& f : r.findings)
-    if (f.severity == Severity::error) FAIL(f.code << " " << f.message);
-  REQUIRE(r.model);
-  return std::move(*r.model);
 }
 
 /// Largest relative change of the length of an edge of triangles, over all edges longer than 2 mm.
@@ -77,7 +70,7 @@ TEST_CASE("the girth line is convex, symmetric, closed and measured by its lengt
 }
 
 TEST_CASE("wrapped panels keep lengths, stay off the body and mirror each other") {
-  model::Model m = build(tube(0.56));
+  model::Model m = build_on_woman(tube(0.56));
   const body::Body& body = test::woman()[0];
   CHECK(test::least_distance(m, body) > 0.002);
   CHECK(worst_length(m) < 0.01);
@@ -98,10 +91,10 @@ TEST_CASE("wrapped panels keep lengths, stay off the body and mirror each other"
 
 TEST_CASE("a tube wider than the body closes without a gap at the sides") {
   design::Garment g = tube(0.7);
-  model::Model m = build(g);
+  model::Model m = build_on_woman(g);
   CHECK(worst_length(m) < 0.01);  // the cells beside the seams, too: front and back meet where they are sewn
   g.panels[0].placement.offset = 0.05;
-  CHECK(test::least_distance(build(g), test::woman()[0]) > 0.002);
+  CHECK(test::least_distance(build_on_woman(g), test::woman()[0]) > 0.002);
 }
 
 TEST_CASE("a panel without a place is carried on from the panels it is sewn to") {
@@ -109,7 +102,7 @@ TEST_CASE("a panel without a place is carried on from the panels it is sewn to")
   g.panels.push_back(test::rectangle("flounce", 0.56, 0.1, 0.02));
   g.panels[2].placement = {};
   g.seams.push_back(test::seam("hem", {test::whole(g, 0, 0)}, {test::whole(g, 2, 2, true)}));
-  model::Model m = build(g);
+  model::Model m = build_on_woman(g);
   CHECK(worst_length(m) < 0.05);
   double low = 1e300, above = 1e300;
   for (std::size_t v = 0; v < m.n_vertices(); ++v) {
@@ -127,7 +120,7 @@ TEST_CASE("a panel rolled round a limb surrounds it and no other") {
     wrap(g.panels[0], part, "", "");
     g.panels[0].placement.kind = design::Placement::Kind::around;
     g.seams = {test::seam("underarm", {test::whole(g, 0, 1)}, {test::whole(g, 0, 3, true)})};
-    model::Model m = build(g);
+    model::Model m = build_on_woman(g);
     CHECK(worst_length(m) < 0.02);
     const body::Body& body = test::woman()[0];
     const auto& own = body.parts.at(part).sections;

@@ -9,6 +9,7 @@
 
 using namespace garment;
 using test::build;
+using test::sum;
 using design::RegionFactors;
 using design::RegionShape;
 
@@ -34,12 +35,6 @@ design::Garment halved(const RegionFactors& factors) {
   design::Garment g = test::single(test::rectangle("cloth", 0.3, 0.4, 0.01));
   g.regions = {region(0, above(0.2), factors)};
   return g;
-}
-
-double sum(const std::vector<double>& values) {
-  double total = 0;
-  for (double x : values) total += x;
-  return total;
 }
 
 }  // namespace

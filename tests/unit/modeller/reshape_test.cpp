@@ -5,6 +5,7 @@
 
 #include "runtime/base/host.hpp"
 #include "runtime/modeller/modeller.hpp"
+#include "tests/unit/modeller/built.hpp"
 #include "tests/unit/modeller/garments.hpp"
 
 using namespace garment;
@@ -12,12 +13,6 @@ using model::Vector3d;
 using Vectors = std::vector<Vector3d>;
 
 namespace {
-
-model::Model built(const design::Garment& g) {
-  modeller::ModelResult r = modeller::build_model(g, {});
-  REQUIRE(r.model);
-  return std::move(*r.model);
-}
 
 /// Largest stretch or squeeze of a spring.
 double largest_strain(const model::Model& m, const Vectors& x) {
@@ -41,7 +36,7 @@ Vectors rolled(const model::Model& m) {
 
 TEST_CASE("reshape: a garment that was not changed keeps its positions bit for bit") {
   const design::Garment g = test::skirt(0.02);
-  const model::Model m = built(g);
+  const model::Model m = test::build(g);
   const modeller::Transferred laid = modeller::transfer({g, m}, m.start, {g, m});
   CHECK(modeller::reshape({g, m}, m.start, {g, m}, laid, {}) == m.start);
 }
@@ -49,7 +44,7 @@ TEST_CASE("reshape: a garment that was not changed keeps its positions bit for b
 TEST_CASE("reshape: a panel made larger hangs at its own size, as it was bent") {
   const design::Garment before = test::single(test::rectangle("sheet", 0.4, 0.3, 0.02));
   const design::Garment now = test::single(test::rectangle("sheet", 0.5, 0.4, 0.02));
-  const model::Model was = built(before), is = built(now);
+  const model::Model was = test::build(before), is = test::build(now);
   const Vectors x = rolled(was);
   const modeller::Transferred laid = modeller::transfer({before, was}, x, {now, is});
   REQUIRE(largest_strain(is, laid.position) > 0.2);
@@ -66,7 +61,7 @@ TEST_CASE("reshape: what is held goes to its hold, and the cloth with it") {
   before.pins.push_back({"one", {}, 0, {0, 0.3}});
   design::Garment now = before;
   now.panels[0].placement.translation.y() += 0.5;
-  const model::Model was = built(before), is = built(now);
+  const model::Model was = test::build(before), is = test::build(now);
   const modeller::Transferred laid = modeller::transfer({before, was}, was.start, {now, is});
   REQUIRE(laid.n_kept == is.n_particles());
   const Vectors reshaped = modeller::reshape({before, was}, was.start, {now, is}, laid, {});
@@ -92,7 +87,7 @@ TEST_CASE("reshape: cloth that lies on a body keeps its height") {
   };
   const design::Garment before = test::single(test::rectangle("sheet", 0.4, 0.3, 0.02));
   const design::Garment now = test::single(test::rectangle("sheet", 0.4, 0.4, 0.02));
-  const model::Model was = built(before), is = built(now);
+  const model::Model was = test::build(before), is = test::build(now);
   const Vectors x = hung(was);
   const modeller::Transferred laid = modeller::transfer({before, was}, x, {now, is});
   const Vectors reshaped = modeller::reshape({before, was}, x, {now, is}, laid, {*body.body});

@@ -5,6 +5,7 @@
 
 #include "runtime/modeller/modeller.hpp"
 #include "runtime/modeller/pattern_warp.hpp"
+#include "tests/unit/modeller/built.hpp"
 #include "tests/unit/modeller/garments.hpp"
 
 using namespace garment;
@@ -12,12 +13,6 @@ using design::Point2;
 using model::Vector3d;
 
 namespace {
-
-model::Model built(const design::Garment& g) {
-  modeller::ModelResult r = modeller::build_model(g, {});
-  REQUIRE(r.model);
-  return std::move(*r.model);
-}
 
 /// A smooth shape in space, by place in the flat pattern.
 Vector3d roof(const Point2& p) { return {p.x(), p.y() - p.y() * p.y(), 0.3 * p.x() * p.x()}; }
@@ -32,7 +27,7 @@ std::vector<Vector3d> shaped(const model::Model& m) {
 
 TEST_CASE("a garment that was not changed keeps its positions bit for bit") {
   const design::Garment g = test::skirt(0.02);
-  const model::Model m = built(g);
+  const model::Model m = test::build(g);
   std::vector<Vector3d> x = m.start;
   test::Random random(3);
   for (Vector3d& p : x) p += Vector3d(random(-0.1, 0.1), random(-0.1, 0.1), random(-0.1, 0.1));
@@ -46,7 +41,7 @@ TEST_CASE("the panel that was not changed keeps its positions beside one that wa
   const design::Garment before = test::skirt(0.02);
   design::Garment now = before;
   now.panels[0].darts[0].depth = 0.11;
-  const model::Model was = built(before), is = built(now);
+  const model::Model was = test::build(before), is = test::build(now);
   const std::vector<Vector3d> x = was.start;
   const modeller::Transferred t = modeller::transfer({before, was}, x, {now, is});
   const model::PanelRange &a = was.panels[1], &b = is.panels[1];
@@ -64,7 +59,7 @@ TEST_CASE("the panel that was not changed keeps its positions beside one that wa
 TEST_CASE("a finer grid of the same panel takes the shape between the particles") {
   const design::Garment before = test::single(test::rectangle("sheet", 0.4, 0.3, 0.02));
   const design::Garment now = test::single(test::rectangle("sheet", 0.4, 0.3, 0.013));
-  const model::Model was = built(before), is = built(now);
+  const model::Model was = test::build(before), is = test::build(now);
   const modeller::Transferred t = modeller::transfer({before, was}, shaped(was), {now, is});
   const std::vector<Vector3d> want = shaped(is);
   for (std::size_t i = 0; i < want.size(); ++i) CHECK((t.position[i] - want[i]).norm() < 2e-4);
@@ -73,7 +68,7 @@ TEST_CASE("a finer grid of the same panel takes the shape between the particles"
 TEST_CASE("a panel made larger keeps its shape, edge on edge") {
   const design::Garment before = test::single(test::rectangle("sheet", 0.4, 0.3, 0.02));
   const design::Garment now = test::single(test::rectangle("sheet", 0.5, 0.36, 0.02));
-  const model::Model was = built(before), is = built(now);
+  const model::Model was = test::build(before), is = test::build(now);
   const modeller::Transferred t = modeller::transfer({before, was}, shaped(was), {now, is});
   for (std::size_t v = 0; v < is.n_vertices(); ++v) {
     const Point2 back(is.vertex_uv[v].x() * 0.4 / 0.5, is.vertex_uv[v].y() * 0.3 / 0.36);
@@ -86,7 +81,7 @@ TEST_CASE("a new panel comes to where its seams hang") {
   design::Garment now = before;
   now.panels.push_back(test::rectangle("frill", 0.2, 0.1, 0.02));
   now.seams = {test::seam("s", {test::whole(now, 0, 0)}, {test::whole(now, 1, 2, true)})};
-  const model::Model was = built(before), is = built(now);
+  const model::Model was = test::build(before), is = test::build(now);
   std::vector<Vector3d> x = was.start;
   for (Vector3d& p : x) p += Vector3d(1, 2, 3);
   const modeller::Transferred t = modeller::transfer({before, was}, x, {now, is});
