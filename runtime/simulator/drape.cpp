@@ -33,6 +33,9 @@ constexpr int kMostRefused = 12;            // steps in a row
 constexpr int kMostRepairs = 12;            // times that a garment at rest may still pierce a body
 constexpr double kExtraOffset = 1e-3;       // m, by which a particle of a pierced part is pushed farther, each time
 constexpr double kMostExtraOffset = 20e-3;  // m
+constexpr double kSlidingResidual = 0.05;   // rest where sliders act and the drape is to be exact: stiff, they hold or slip to the last bits
+constexpr double kSlidingStep = 1e-8;       // m
+constexpr int kIncrements = 10;             // of the weight, where the cloth's own friction acts
 
 bool all_finite(const Vectors& x) {
   return std::all_of(x.begin(), x.end(), [](const Vector3d& p) { return p.allFinite(); });
@@ -115,9 +118,43 @@ class Way {
     }
   }
 
-  DrapeStatus go() {
-    double target = target_residual(d_.settings.settle);
-    while (d_.report.steps < d_.settings.max_steps) {
+  DrapeStatus go() { return go(target_residual(d_.settings.settle), d_.settings.certify); }
+
+  /// The cloth at rest without its own friction is where it would hang in the end; how it came there the sliders must not
+  /// learn from the solver. So the weight comes on anew, in increments, each brought to rest with the sliders frozen.
+  DrapeStatus load() {
+    relaxation_.inner_friction().set_active(true);
+    for (int k = 1; k <= kIncrements; ++k) {
+      const double share = static_cast<double>(k) / kIncrements;
+      relaxation_.set_gravity_scale(share);
+      const DrapeStatus status = slide(share * target_residual(d_.settings.settle), k == kIncrements && d_.settings.certify);
+      if (status != DrapeStatus::at_rest) return status;
+    }
+    return DrapeStatus::at_rest;
+  }
+
+  /// Goes on from where the sliders were when the garment hung still.
+  DrapeStatus slide(double target, bool certify) {
+    relaxation_.inner_friction().set_active(true);
+    most_steps_ = d_.report.steps + d_.settings.max_steps;
+    if (stage_ != Stage::settling) {
+      relaxation_.set_gravity_scale(1);
+      relaxation_.set_tensile_scale(1);
+    }
+    enter(Stage::settling);
+    relaxation_.set_time_step(kRestTimeStep);
+    const DrapeStatus status = go(target, certify);
+    if (status == DrapeStatus::at_rest) relaxation_.inner_friction().slip(d_.x);
+    return status;
+  }
+
+  Relaxation& relaxation() { return relaxation_; }
+
+ private:
+  enum class Stage { dressing, soft, settling };
+
+  DrapeStatus go(double target, bool certify) {
+    while (d_.report.steps < most_steps_) {
       if (d_.stop_asked()) return DrapeStatus::interrupted;
       before_ = d_.x;
       StepReport step = relaxation_.step(d_.x);
@@ -130,14 +167,15 @@ class Way {
       d_.tell(step, stage_ == Stage::settling ? "settling" : "dressing");
       d_.report.newton_step = step.newton_step;
       refused_ = step.accepted ? 0 : refused_ + 1;
+      if (step.accepted && !relaxation_.inner_friction().idle()) relaxation_.set_time_step(kRestTimeStep);  // sliders cut it short, not folds
       if (refused_ > kMostRefused) return DrapeStatus::not_settled;
       if (stage_ != Stage::settling) {
         advance(step, target);
         continue;
       }
       bool rest = rests(step, target);
-      if (rest && !d_.settings.certify) return DrapeStatus::at_rest;
-      bool look = d_.settings.certify && step.residual < kNearRest && steps_in_stage_ % kRepairEvery == 0;
+      if (rest && !certify) return DrapeStatus::at_rest;
+      bool look = certify && step.residual < kNearRest && steps_in_stage_ % kRepairEvery == 0;
       if (!rest && !look) continue;
       if (rest) d_.x = before_;  // the state that was judged
       Tangle tangle = find_tangle(all_, d_.bodies, d_.x);
@@ -152,11 +190,6 @@ class Way {
     }
     return DrapeStatus::not_settled;
   }
-
-  Relaxation& relaxation() { return relaxation_; }
-
- private:
-  enum class Stage { dressing, soft, settling };
 
   static RelaxationSettings relaxation_settings(const Drape& d) {
     RelaxationSettings settings;
@@ -189,6 +222,8 @@ class Way {
   }
 
   bool rests(const StepReport& step, double target) const {
+    if (!relaxation_.inner_friction().idle() && d_.settings.settle == Settle::exact)
+      return steps_in_stage_ >= 2 && step.residual <= kSlidingResidual && step.time_step >= kRestTimeStep && step.newton_step < kSlidingStep;
     if (steps_in_stage_ < 2 || !(step.residual <= target)) return false;
     if (d_.settings.settle == Settle::preview) return true;
     return step.time_step >= kRestTimeStep && step.newton_step < kRestStep;
@@ -198,7 +233,7 @@ class Way {
   const ContactMesh& all_;
   Relaxation relaxation_;
   Stage stage_ = Stage::soft;
-  int steps_in_stage_ = 0, refused_ = 0, repairs_ = 0;
+  int most_steps_ = d_.settings.max_steps, steps_in_stage_ = 0, refused_ = 0, repairs_ = 0;
   double last_strain_ = 1e300;
   Vectors before_;
 };
@@ -269,11 +304,15 @@ DrapeReport drape(const model::Model& model, const std::vector<body::Body>& bodi
   Drape d{model, bodies, settings, report, state.position.empty() ? model.start : state.position};
   ContactMesh all(model, bodies, ContactOptions{settings.self_collision, 0, 0});
   Way way(d, all);
-  report.status = way.go();
+  const bool hangs = settings.hysteresis && way.relaxation().inner_friction().take_anchors(state.slip);
+  report.status = hangs ? way.slide(target_residual(settings.settle), settings.certify) : way.go();
+  if (settings.hysteresis && !hangs && report.status == DrapeStatus::at_rest) report.status = way.load();
+  if (!way.relaxation().inner_friction().idle()) state.slip = way.relaxation().inner_friction().anchors();
   Vectors force;
   report.residual = way.relaxation().residual(d.x, force);
   report.energy = way.relaxation().energy(d.x);
   report.reactions = way.relaxation().reactions();
+  report.moments = way.relaxation().moments();
   state.position = d.x;
   state.velocity.assign(d.x.size(), Vector3d::Zero());
   Certificate certificate = certify(model, state, bodies);

@@ -24,6 +24,7 @@ DrapeReport drape_levels(const std::vector<model::Model>& coarse, const model::M
     rough.settle = Settle::preview;
     rough.near_rest = from != nullptr;
     rough.certify = false;
+    rough.hysteresis = false;
     rough.max_steps = std::min(std::max(1, settings.max_steps - steps), kMostCoarseSteps);
     DrapeReport report = drape(level, bodies, on_level, rough);
     steps += report.steps;
