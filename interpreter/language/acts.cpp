@@ -29,6 +29,7 @@ class AnyDrape : public DrapeMeasures {
   std::optional<double> nodes(int) const override { return 1; }
   std::optional<Eigen::Vector3d> position(int) const override { return Eigen::Vector3d(1, 1, 1); }
   std::optional<Eigen::Vector3d> reaction(const std::string&) const override { return Eigen::Vector3d(1, 1, 1); }
+  std::optional<Eigen::Vector3d> moment(const std::string&) const override { return Eigen::Vector3d(1, 1, 1); }
   std::optional<double> elapsed() const override { return 1; }
   std::optional<Eigen::Vector3d> position(int, const design::Point2&) const override {
     return Eigen::Vector3d(1, 1, 1);
