@@ -7,6 +7,7 @@
 #include "runtime/simulator/elastic.hpp"
 #include "runtime/simulator/inner_friction.hpp"
 #include "tests/support/elastic_cases.hpp"
+#include "tests/support/motion_cases.hpp"
 
 namespace {
 
@@ -208,4 +209,25 @@ TEST_CASE("the slider of tension gives back RT of the work and follows the recor
   }
   CHECK(out == Approx(0.608 * 490.3325 * 0.0603 / 2).epsilon(1e-4));
   CHECK(back / out == Approx(0.622).epsilon(0.005));
+}
+
+TEST_CASE("moved: friction inside the cloth turns swing to heat, and the balance of energy has it") {
+  test::SheetSpec spec;
+  spec.nx = 9;
+  spec.ny = 2;
+  spec.h = 0.01;
+  spec.plane = test::SheetPlane::horizontal;
+  model::Model m = test::make_sheet(spec);
+  test::hold_column(m, spec, 0);
+  test::hold_column(m, spec, 1);
+  m.damping.assign(m.n_particles(), 0);
+  const test::Moved free = test::move(m, test::lasting(0.3, 1.0 / 480));
+  m.bend_slip.assign(m.bend.size(), 3e-4);
+  const test::Moved rubbed = test::move(m, test::lasting(0.3, 1.0 / 480));
+  for (const test::Moved* moved : {&free, &rubbed}) REQUIRE(moved->report.status == simulator::DrapeStatus::ran);
+  const simulator::EnergyBalance& balance = rubbed.report.motion.balance;
+  CHECK(free.report.motion.balance.friction == 0);
+  CHECK(balance.friction > 0);
+  CHECK(std::abs(balance.numerical) < 0.5 * balance.friction);
+  CHECK(rubbed.state.slip.size() == m.bend.size());
 }
