@@ -257,7 +257,7 @@ struct State {
   std::vector<Vector3d> position;                ///< m [n_particles]
   std::vector<Vector3d> velocity;                ///< m/s [n_particles]
   double time = 0;                               ///< s
-  std::vector<double> slip;                      ///< anchors of the sliders inside the cloth; empty: none has slipped yet
+  std::vector<double> slip{};                    ///< anchors of the sliders inside the cloth; empty: none has slipped yet
 };
 
 }  // namespace garment::model
