@@ -19,6 +19,7 @@ class AnyDrape : public DrapeMeasures {
   bool stand_in() const override { return true; }
   std::optional<double> strain(const std::string&) const override { return 1; }
   std::optional<double> shear(const std::string&) const override { return 1; }
+  std::optional<double> stress(const std::string&) const override { return 1; }
   std::optional<double> length(const std::vector<design::EdgePart>&) const override { return 1; }
   std::optional<double> area(const std::string&) const override { return 1; }
   std::optional<double> mass(const std::string&) const override { return 1; }

@@ -20,6 +20,14 @@ int panel_of(Call& call) {
            .help("it takes one panel"));
 }
 
+Value run_stress(Call& call) {
+  const DrapeMeasures& drape = drape_of(call);
+  std::string panel;
+  if (call.arguments[0].as<AllValue>() == nullptr) panel = call.program.panels[static_cast<std::size_t>(panel_of(call))].panel.name;
+  if (const auto tension = drape.stress(panel)) return number_value(*tension, kForcePerLength);
+  fail(call.program, Message("G0325", "`stress` is not known of this drape", call.expr.span));
+}
+
 Value run_drape_coefficient(Call& call) {
   const DrapeMeasures& drape = drape_of(call);
   if (const auto share = drape.drape_coefficient(panel_of(call))) return number_value(*share, kNumber, true);
@@ -73,7 +81,7 @@ Value run_later(Call& call) {
   fail(call.program,
        Message("G1326", "`" + std::string(call.record.name) + "` cannot be asked of a drape yet",
                call.expr.span)
-           .help("ask strain, shear, clearance, length, area, mass, energy, position, reaction, moment, drape_coefficient "
+           .help("ask strain, stress, shear, clearance, length, area, mass, energy, position, reaction, moment, drape_coefficient "
                  "or nodes"));
 }
 
@@ -113,7 +121,15 @@ std::vector<FunctionRecord> drape_test_functions() {
        run_nodes,
        false,
        true},
-      later("stress", "stress(PANEL | all)", "largest tension (not supported yet)", "stress(all)", {"panel"}),
+      {"stress",
+       "stress(PANEL | all)",
+       "largest tension along warp or weft, per width",
+       "stress(all)",
+       {"panel"},
+       1,
+       run_stress,
+       false,
+       true},
       later("pressure", "pressure(PANEL | all)", "largest pressure on a body (not supported yet)",
             "pressure(all)", {"panel"}),
       {"reaction",

@@ -157,6 +157,7 @@ class DrapeMeasures {
   virtual bool stand_in() const { return false; }
   virtual std::optional<double> strain(const std::string& panel) const = 0;  ///< largest tensile, 1
   virtual std::optional<double> shear(const std::string& panel) const = 0;   ///< largest angle, rad
+  virtual std::optional<double> stress(const std::string&) const { return std::nullopt; }  ///< largest tension, N/m
   virtual std::optional<double> length(const std::vector<design::EdgePart>& parts) const = 0;  ///< m
   virtual std::optional<double> area(const std::string& panel) const = 0;                      ///< m^2
   virtual std::optional<double> mass(const std::string& panel) const = 0;                      ///< kg

@@ -6,6 +6,7 @@
 #include "interpreter/session/recorder.hpp"
 #include "runtime/model/flat_index.hpp"
 #include "runtime/results/shadow.hpp"
+#include "runtime/results/stress.hpp"
 
 namespace garment::session {
 
@@ -46,6 +47,10 @@ std::optional<double> DrapeAnswers::strain(const std::string& panel) const {
 std::optional<double> DrapeAnswers::shear(const std::string& panel) const {
   const results::PanelStrain* s = strain_of(panel);
   return s ? std::optional(s->largest_shear) : std::nullopt;
+}
+
+std::optional<double> DrapeAnswers::stress(const std::string& panel) const {
+  return results::largest_tension(model_, state_, panel);
 }
 
 std::optional<double> DrapeAnswers::length(const std::vector<design::EdgePart>& parts) const {

@@ -17,6 +17,7 @@ class DrapeAnswers final : public interpreter::DrapeMeasures {
 
   std::optional<double> strain(const std::string& panel) const override;
   std::optional<double> shear(const std::string& panel) const override;
+  std::optional<double> stress(const std::string& panel) const override;
   std::optional<double> length(const std::vector<design::EdgePart>& parts) const override;
   std::optional<double> area(const std::string& panel) const override;
   std::optional<double> mass(const std::string& panel) const override;
