@@ -79,7 +79,7 @@ class GoldenRun {
   }
 
   void answer(const interpreter::Act& act) {
-    session::DrapeAnswers answers(script_.garment, script_.bodies, model_, state_, report_);
+    session::DrapeAnswers answers(script_.garment, script_.bodies, model_, state_, report_, &recorder_);
     if (std::holds_alternative<interpreter::ExpectAct>(act.act)) {
       interpreter::ExpectResult r = interpreter::evaluate_expect(script_, act, answers);
       ++outcome_.n_expects;

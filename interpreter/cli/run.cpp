@@ -194,7 +194,7 @@ struct Run {
   }
 
   void expect(const interpreter::Act& act) {
-    session::DrapeAnswers answers(project.result.garment, project.result.bodies, model, state, report.drape);
+    session::DrapeAnswers answers(project.result.garment, project.result.bodies, model, state, report.drape, &recorder);
     interpreter::ExpectResult r = interpreter::evaluate_expect(project.result, act, answers);
     show(r.diagnostics, project.sources, terminal);
     report.expects.push_back({r.text, r.value, r.found, r.expected, r.passed});
@@ -207,7 +207,7 @@ struct Run {
 
   void measure(const interpreter::Act& act) {
     if (!draped) return;  // of the rounds of a study
-    session::DrapeAnswers answers(project.result.garment, project.result.bodies, model, state, report.drape);
+    session::DrapeAnswers answers(project.result.garment, project.result.bodies, model, state, report.drape, &recorder);
     interpreter::MeasureResult r = interpreter::evaluate_measure(project.result, act, answers);
     show(r.diagnostics, project.sources, terminal);
     if (!r.diagnostics.empty()) code = kDiagnostics;

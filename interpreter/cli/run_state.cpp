@@ -35,6 +35,7 @@ void keep(Archive& a, model::State& state, std::size_t n) {
   model::keep(a, state.position, n);
   model::keep(a, state.velocity, n);
   a.keep(state.time);
+  a.keep(state.slip);
 }
 
 void keep_answers(Archive& a, results::Report& report) {

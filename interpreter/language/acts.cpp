@@ -19,6 +19,7 @@ class AnyDrape : public DrapeMeasures {
   bool stand_in() const override { return true; }
   std::optional<double> strain(const std::string&) const override { return 1; }
   std::optional<double> shear(const std::string&) const override { return 1; }
+  std::optional<double> stress(const std::string&) const override { return 1; }
   std::optional<double> length(const std::vector<design::EdgePart>&) const override { return 1; }
   std::optional<double> area(const std::string&) const override { return 1; }
   std::optional<double> mass(const std::string&) const override { return 1; }
@@ -29,6 +30,7 @@ class AnyDrape : public DrapeMeasures {
   std::optional<double> nodes(int) const override { return 1; }
   std::optional<Eigen::Vector3d> position(int) const override { return Eigen::Vector3d(1, 1, 1); }
   std::optional<Eigen::Vector3d> reaction(const std::string&) const override { return Eigen::Vector3d(1, 1, 1); }
+  std::optional<Eigen::Vector3d> moment(const std::string&) const override { return Eigen::Vector3d(1, 1, 1); }
   std::optional<double> elapsed() const override { return 1; }
   std::optional<Eigen::Vector3d> position(int, const design::Point2&) const override {
     return Eigen::Vector3d(1, 1, 1);

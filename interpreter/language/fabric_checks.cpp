@@ -128,12 +128,12 @@ void note_unused(Program& program, const Given& given) {
                                 [](const Diagnostic& d) { return d.code == "G0461"; });
   if (names.empty() || told) return;  // of the first fabric: it is alike for all
   Message message("G0461", enumerated(names) + (names.size() == 1 ? " is" : " are") +
-                               " kept with the fabric, but a drape to rest does not use " +
-                               (names.size() == 1 ? "it" : "them"),
+                               " kept with the fabric; a drape to rest uses " +
+                               (names.size() == 1 ? "it" : "them") + " only with `hysteresis on`",
                   places[0]);
   for (std::size_t k = 1; k < places.size(); ++k) message.also(places[k], "");
   message.diagnostic.severity = Severity::note;
-  report(program, message.help("nothing is to be done: cloth springs back here without loss"));
+  report(program, message.help("nothing is to be done: cloth springs back without loss, but in rigs (`solver quasi_static`)"));
 }
 
 }  // namespace garment::interpreter

@@ -67,7 +67,7 @@ void warn_defaults(Program& program, const Given& given, const std::string& name
 void warn_implausible(Program& program, const design::Fabric& fabric, const Given& given,
                       const std::string& name);
 
-/// Says which given figures no drape uses yet (G0461).
+/// Says which given figures act only where hysteresis is asked for (G0461).
 void note_unused(Program& program, const Given& given);
 
 /// The picture's file must be there (G1133).

@@ -66,6 +66,7 @@ std::vector<FunctionRecord> crossing_functions();
 std::vector<FunctionRecord> garment_functions();
 std::vector<FunctionRecord> drape_functions();
 std::vector<FunctionRecord> drape_test_functions();
+std::vector<FunctionRecord> record_functions();
 std::vector<FunctionRecord> shape_functions();
 std::vector<FunctionRecord> cloth_functions();
 std::vector<FunctionRecord> people_functions();

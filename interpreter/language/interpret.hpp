@@ -10,6 +10,7 @@
 
 #include "grammar/diagnostic.hpp"
 #include "grammar/syntax_tree.hpp"
+#include "interpreter/language/curve_questions.hpp"
 #include "interpreter/language/origins.hpp"
 #include "runtime/base/host.hpp"
 #include "runtime/body/body.hpp"
@@ -74,7 +75,8 @@ struct RecordAct {
   bool frames = false;
   std::string x, y;  ///< as written; of a curve
   double every = 0;  ///< s
-  std::string path;  ///< of frames: the name that each number is put into
+  std::string path;  ///< of frames: the name that each number is put into; of a curve its name
+  std::vector<std::string> plots;  ///< pictures of a curve, beside its table
   const grammar::Statement* statement = nullptr;
   void* scope = nullptr;  ///< opaque
 };
@@ -155,6 +157,7 @@ class DrapeMeasures {
   virtual bool stand_in() const { return false; }
   virtual std::optional<double> strain(const std::string& panel) const = 0;  ///< largest tensile, 1
   virtual std::optional<double> shear(const std::string& panel) const = 0;   ///< largest angle, rad
+  virtual std::optional<double> stress(const std::string&) const { return std::nullopt; }  ///< largest tension, N/m
   virtual std::optional<double> length(const std::vector<design::EdgePart>& parts) const = 0;  ///< m
   virtual std::optional<double> area(const std::string& panel) const = 0;                      ///< m^2
   virtual std::optional<double> mass(const std::string& panel) const = 0;                      ///< kg
@@ -169,6 +172,10 @@ class DrapeMeasures {
   virtual std::optional<Eigen::Vector3d> position(int pin) const = 0;
   /// Force with which a pin or clamp holds the cloth, by its name, N.
   virtual std::optional<Eigen::Vector3d> reaction(const std::string&) const { return std::nullopt; }
+  /// The moment of that force about the middle of what is held, N m.
+  virtual std::optional<Eigen::Vector3d> moment(const std::string&) const { return std::nullopt; }
+  /// The points of a recorded curve so far, by its file; null where there are none.
+  virtual const CurvePoints* curve(const std::string&) const { return nullptr; }
   virtual std::optional<double> elapsed() const { return std::nullopt; }  ///< time of the motions, s
   /// Of a point of a panel, panel coordinates in m.
   virtual std::optional<Eigen::Vector3d> position(int panel, const design::Point2& point) const = 0;

@@ -174,6 +174,8 @@ void run_solver(Program& program, const Item& item) {
   Clauses clauses(program, statement, *item.scope);
   const BoundClause* stated = clauses.find("step");
   if (const auto step = clauses.quantity("step")) choice.step = *step;
+  if (const BoundClause* hysteresis = clauses.find("hysteresis"))
+    choice.hysteresis = eval_word(program, clauses.value(*hysteresis), {"off", "on"}, "word of `hysteresis`") == 1;
   clauses.finish();
   if (stated != nullptr && choice.method == design::SolverChoice::Method::quasi_static)
     fail(program,

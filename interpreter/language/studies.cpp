@@ -130,22 +130,33 @@ void run_record(Program& program, const Item& item) {
   clauses.need("every");
   act.every = *clauses.quantity("every");
   const BoundClause& as = clauses.need("as");
-  act.path = eval_text(program, clauses.value(as), *as.scope, "`as`");
+  if (as.clause->values.empty()) clauses.value(as);  // says that it is missing
+  for (const Expr& name : as.clause->values) {
+    const std::string path = eval_text(program, name, *as.scope, "`as`");
+    writable_path(program, path, name.span);
+    if (!act.frames && path.ends_with(".svg") && path.size() > 4)
+      act.plots.push_back(path);
+    else if (act.path.empty())
+      act.path = path;
+    else
+      fail(program, Message("G1321", "`" + path + "` beside `" + act.path + "`", name.span)
+                        .help("a record has one file, and a curve may have pictures of it as well, whose names end in `.svg`"));
+  }
   clauses.finish();
-  writable_path(program, act.path, clauses.value(as).span);
   auto ends = [&](std::string_view ending) { return act.path.size() > ending.size() && act.path.ends_with(ending); };
   if (act.frames && !(ends(".obj") || ends(".ply") || ends(".glb") || ends(".csv") || ends(".png")))
     fail(program,
-         Message("G1321", "frames are written as shapes, `" + act.path + "` is none", clauses.value(as).span)
+         Message("G1321", "frames are written as shapes, `" + act.path + "` is none", as.clause->values[0].span)
              .help("give it a name that ends in `.obj`, `.ply`, `.glb`, `.csv` or `.png`"));
   if (act.frames) {
     program.acts.push_back({act, statement.span});
     return;
   }
   if (!ends(".csv"))
-    fail(program,
-         Message("G1321", "a curve is written as a table, `" + act.path + "` is none", clauses.value(as).span)
-             .help("give it a name that ends in `.csv`"));
+    fail(program, Message("G1321", act.path.empty() ? "a curve is written as a table, and as a picture beside it"
+                                                    : "a curve is written as a table, `" + act.path + "` is none",
+                          as.clause->values[0].span)
+                      .help("give it a name that ends in `.csv`; a picture is added as in `as \"pull.csv\", \"pull.svg\"`"));
   check_questions(program, {&statement.operands[1], &statement.operands[2]}, *item.scope);
   act.x = std::string(program.sources.text(statement.operands[1].span));
   act.y = std::string(program.sources.text(statement.operands[2].span));

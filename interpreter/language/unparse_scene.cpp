@@ -83,6 +83,7 @@ std::string solver(const design::SolverChoice& choice) {
   constexpr const char* kMethods[] = {"quasi_static", "dynamic_constraints", "implicit", "semi_implicit", "explicit"};
   std::string out = std::string("solver ") + kMethods[static_cast<int>(choice.method)];
   if (choice.step > 0) out += " step " + format_number(choice.step) + " s";
+  if (choice.hysteresis) out += *choice.hysteresis ? " hysteresis on" : " hysteresis off";
   return out;
 }
 

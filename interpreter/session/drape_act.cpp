@@ -57,6 +57,7 @@ simulator::DrapeReport perform_drape(const interpreter::DrapeAct& act, const Dra
   if (!act.until_rest) return for_a_time(act.duration, scene, state);
   simulator::DrapeSettings settings = scene.settings;
   settings.settle = act.settle;
+  settings.hysteresis = scene.script.garment.scene.slides_to_rest();
   return to_rest(scene, settings, state);
 }
 

@@ -3,15 +3,17 @@
 #include <algorithm>
 #include <array>
 
+#include "interpreter/session/recorder.hpp"
 #include "runtime/model/flat_index.hpp"
 #include "runtime/results/shadow.hpp"
+#include "runtime/results/stress.hpp"
 
 namespace garment::session {
 
 DrapeAnswers::DrapeAnswers(const design::Garment& garment, const std::vector<body::Body>& bodies,
                            const model::Model& model, const model::State& state,
-                           const simulator::DrapeReport& report)
-    : garment_(garment), bodies_(bodies), model_(model), state_(state), report_(report) {}
+                           const simulator::DrapeReport& report, const Recorder* recorder)
+    : garment_(garment), bodies_(bodies), model_(model), state_(state), report_(report), recorder_(recorder) {}
 
 const results::StrainReport& DrapeAnswers::strains() const {
   if (!strain_) strain_ = results::measure_strain(model_, state_);
@@ -45,6 +47,10 @@ std::optional<double> DrapeAnswers::strain(const std::string& panel) const {
 std::optional<double> DrapeAnswers::shear(const std::string& panel) const {
   const results::PanelStrain* s = strain_of(panel);
   return s ? std::optional(s->largest_shear) : std::nullopt;
+}
+
+std::optional<double> DrapeAnswers::stress(const std::string& panel) const {
+  return results::largest_tension(model_, state_, panel);
 }
 
 std::optional<double> DrapeAnswers::length(const std::vector<design::EdgePart>& parts) const {
@@ -92,6 +98,16 @@ std::optional<Eigen::Vector3d> DrapeAnswers::reaction(const std::string& holder)
   for (std::size_t h = 0; h < std::min(model_.holders.size(), report_.reactions.size()); ++h)
     if (model_.holders[h].name == holder) return report_.reactions[h];
   return std::nullopt;
+}
+
+std::optional<Eigen::Vector3d> DrapeAnswers::moment(const std::string& holder) const {
+  for (std::size_t h = 0; h < std::min(model_.holders.size(), report_.moments.size()); ++h)
+    if (model_.holders[h].name == holder) return report_.moments[h];
+  return std::nullopt;
+}
+
+const interpreter::CurvePoints* DrapeAnswers::curve(const std::string& path) const {
+  return recorder_ == nullptr ? nullptr : recorder_->curve(path);
 }
 
 /// A pin holds the particle next to its point: that is where it is.

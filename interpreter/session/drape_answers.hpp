@@ -7,13 +7,17 @@
 
 namespace garment::session {
 
+class Recorder;
+
 class DrapeAnswers final : public interpreter::DrapeMeasures {
  public:
   DrapeAnswers(const design::Garment& garment, const std::vector<body::Body>& bodies,
-               const model::Model& model, const model::State& state, const simulator::DrapeReport& report);
+               const model::Model& model, const model::State& state, const simulator::DrapeReport& report,
+               const Recorder* recorder = nullptr);
 
   std::optional<double> strain(const std::string& panel) const override;
   std::optional<double> shear(const std::string& panel) const override;
+  std::optional<double> stress(const std::string& panel) const override;
   std::optional<double> length(const std::vector<design::EdgePart>& parts) const override;
   std::optional<double> area(const std::string& panel) const override;
   std::optional<double> mass(const std::string& panel) const override;
@@ -21,6 +25,8 @@ class DrapeAnswers final : public interpreter::DrapeMeasures {
   std::optional<double> energy() const override { return report_.energy; }
   std::optional<double> penetrations() const override;
   std::optional<Eigen::Vector3d> reaction(const std::string& holder) const override;
+  std::optional<Eigen::Vector3d> moment(const std::string& holder) const override;
+  const interpreter::CurvePoints* curve(const std::string& path) const override;
   std::optional<double> elapsed() const override { return state_.time; }
   std::optional<double> drape_coefficient(int panel) const override;
   std::optional<double> nodes(int panel) const override;
@@ -38,6 +44,7 @@ class DrapeAnswers final : public interpreter::DrapeMeasures {
   const model::Model& model_;
   const model::State& state_;
   const simulator::DrapeReport& report_;
+  const Recorder* recorder_;
   mutable std::optional<results::StrainReport> strain_;  ///< made when first asked
   mutable std::optional<results::Measures> measures_;
 };

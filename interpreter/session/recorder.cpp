@@ -8,6 +8,7 @@
 #include "interpreter/session/drape_answers.hpp"
 #include "interpreter/session/result_files.hpp"
 #include "runtime/base/number.hpp"
+#include "runtime/io/plot_svg.hpp"
 
 namespace garment::session {
 namespace {
@@ -15,9 +16,10 @@ namespace {
 constexpr double kSameTime = 1e-9;  // of an interval
 constexpr int kMostFrames = 10'000, kMostRows = 1'000'000;
 
+std::string labelled(const std::string& text, const std::string& unit) { return unit.empty() ? text : text + " [" + unit + "]"; }
+
 std::string heading(const std::string& text, const std::string& unit) {
-  std::string cell = text;
-  if (!unit.empty()) cell += " [" + unit + "]";
+  const std::string cell = labelled(text, unit);
   if (cell.find_first_of(",\"\n") == std::string::npos) return cell;
   std::string quoted = "\"";
   for (char c : cell) quoted += c == '"' ? "\"\"" : std::string(1, c);
@@ -64,6 +66,11 @@ void Recorder::take(Track& track, const model::State& state, const simulator::Dr
     diagnostics_.insert(diagnostics_.end(), p.diagnostics.begin(), p.diagnostics.end());
     return;
   }
+  track.points.push_back({p.x, p.y});
+  if (track.rows.empty()) {
+    track.x_label = labelled(track.act.x, p.x_unit);
+    track.y_label = labelled(track.act.y, p.y_unit);
+  }
   if (track.rows.empty())
     track.rows = "time [s]," + heading(track.act.x, p.x_unit) + ',' + heading(track.act.y, p.y_unit) + '\n';
   track.rows += format_number(state.time) + ',' + format_number(p.x) + ',' + format_number(p.y) + '\n';
@@ -101,7 +108,8 @@ void Recorder::keep(Archive& a) {
   a.keep(n);
   a.demand(n == tracks_.size());
   for (Track& t : tracks_) {
-    a.keep(t.rows);
+    for (std::string* text : {&t.rows, &t.x_label, &t.y_label}) a.keep(*text);
+    if (a.length(t.points, 2 * sizeof(double)) && !t.points.empty()) a.numbers(t.points.front().data(), 2 * t.points.size());
     a.keep(t.frames);
     a.keep(t.begun);
     a.keep(t.start);
@@ -112,7 +120,16 @@ void Recorder::keep(Archive& a) {
 
 void Recorder::write_tables() {
   for (const Track& t : tracks_)
-    if (!t.act.frames && !t.rows.empty()) write_(t.act.path, t.rows);
+    if (!t.act.frames && !t.rows.empty()) {
+      write_(t.act.path, t.rows);
+      for (const std::string& plot : t.act.plots) write_(plot, io::plot_svg(t.points, t.x_label, t.y_label));
+    }
+}
+
+const interpreter::CurvePoints* Recorder::curve(const std::string& path) const {
+  for (const Track& t : tracks_)
+    if (!t.act.frames && t.act.path == path && !t.points.empty()) return &t.points;
+  return nullptr;
 }
 
 grammar::Diagnostics Recorder::take_diagnostics() {

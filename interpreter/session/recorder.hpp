@@ -19,13 +19,15 @@ class Recorder {
       : script_(script), model_(model), write_(std::move(write)) {}
 
   /// From now on; the first sample is taken when the next motion begins.
-  void add(const interpreter::RecordAct& act) { tracks_.push_back({act, {}, 0, false}); }
+  void add(const interpreter::RecordAct& act) { tracks_.emplace_back().act = act; }
   bool idle() const { return tracks_.empty(); }
   /// The next time (s) later than `after` at which something is recorded.
   double next(double after) const;
   /// Takes the samples that are due at the state's time. `bodies` are where they are then.
   void sample(const model::State& state, const simulator::DrapeReport& report, const std::vector<body::Body>& bodies);
-  /// Writes the tables so far: after each motion, so that a run that fails later keeps them.
+  /// The points of a curve so far, by its file; null where there are none.
+  const interpreter::CurvePoints* curve(const std::string& path) const;
+  /// Writes the tables and pictures of curves so far: after each motion, so that a run that fails later keeps them.
   void write_tables();
   /// In a checkpoint, between two samples: what the same records have taken so far. What could not be evaluated is not kept:
   /// see `troubled`.
@@ -36,8 +38,10 @@ class Recorder {
 
  private:
   struct Track {
-    interpreter::RecordAct act;
-    std::string rows;
+    interpreter::RecordAct act{};
+    std::string rows{};
+    interpreter::CurvePoints points{};
+    std::string x_label{}, y_label{};
     int frames = 0;
     bool begun = false;
     double start = 0;   // s, of the first sample

@@ -11,7 +11,7 @@ struct Tensile {
   double max_strain = 0.06;    ///< EM/100, strain at `max_force`
   double linearity = 0.65;     ///< LT
   double max_force = 490.3325; ///< Fm, N/m (500 gf/cm unless recorded)
-  double resilience = 0.6;     ///< RT/100
+  double resilience = 1;       ///< RT/100; 1 where it is not known: nothing is lost
 };
 
 /// A cloth, SI units (docs/physics.md, section 1, converts KES and FAST). Index 0 is warp, 1 is weft.

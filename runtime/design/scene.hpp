@@ -83,6 +83,8 @@ struct SolverChoice {
   OriginId origin;
   enum class Method { quasi_static, dynamic_constraints, implicit, semi_implicit, explicit_steps } method = Method::quasi_static;
   double step = 0;  ///< s; 0: chosen by the solver
+  std::optional<bool> hysteresis;  ///< friction inside the cloth; unstated: `quasi_static` has it
+  bool slides() const { return hysteresis.value_or(method == Method::quasi_static); }
 };
 
 struct Scene {
@@ -96,6 +98,9 @@ struct Scene {
   std::optional<double> drag;  ///< coefficient of air drag
   OriginId drag_origin;
   std::optional<SolverChoice> solver;
+  /// The cloth's own friction acts: drapes to rest have it where it is stated, drapes for a time also with `quasi_static`.
+  bool slides() const { return solver && solver->slides(); }
+  bool slides_to_rest() const { return solver && solver->hysteresis.value_or(false); }
 };
 
 }  // namespace garment::design

@@ -73,6 +73,10 @@ inline constexpr double kTieReach = 5e-3;
 /// The same of a rod, m: stiffer than any button, it would else drag its ends through the cloth.
 inline constexpr double kRodReach = 0.5e-3;
 
+/// Stiffness of the sliders of tension before they slip, over the largest slope of their law: known where their yield is fitted
+/// to the resilience, and where they act.
+inline constexpr double kTensilePreSlip = 8;
+
 enum class HoldKind : std::uint8_t {
   point,   ///< stays at `hold_point`
   plane,   ///< stays in the plane through `hold_point` with normal `hold_normal` (sliding along a level)
@@ -208,6 +212,17 @@ struct Model {
   std::vector<double> rub_panels_factor;
   // --- Kelvin time of the cloth at each particle; none where it is kUsualDamping everywhere. An element has the mean of its own
   std::vector<double> damping;                   ///< tau, s [n_particles] or empty
+  // --- friction inside the cloth, beside the elastic laws (simulator/inner_friction); all empty where nothing asks for it.
+  std::vector<double> law_slip;                  ///< share f of the tension N that is friction, 0 .. 0.5 [n_laws] or empty
+  std::vector<Vector2d> cell_slip;               ///< (HG, HG5): half the loop at 0.5 and 5 degrees, N/m [n_cells] or empty
+  std::vector<Vector2d> membrane_slip;           ///< the same [n_membranes] or empty
+  std::vector<double> bend_slip;                 ///< HB, N [n_bends] or empty
+  //     of fitted stencils: the curvature K . way along one line of the chart, way = (c^2, s^2, 2 c s) of (K_11, K_22, K_12)
+  std::vector<Index> fit_slip;                   ///< index into fits, ascending
+  std::vector<Index> fit_slip_particle;          ///< at whose normal
+  std::vector<Vector3d> fit_slip_way;
+  std::vector<double> fit_slip_moment;           ///< HB times the area, N m^2
+  std::vector<double> fit_slip_rigidity;         ///< B along the line times the area, N m^3
   // --- holds that move: their place is that of the motion at the time, `hold_point` that of the start
   std::vector<Index> moved_hold;                 ///< index into holds, ascending
   std::vector<Index> moved_by;                   ///< index into motions
@@ -242,6 +257,7 @@ struct State {
   std::vector<Vector3d> position;                ///< m [n_particles]
   std::vector<Vector3d> velocity;                ///< m/s [n_particles]
   double time = 0;                               ///< s
+  std::vector<double> slip{};                    ///< anchors of the sliders inside the cloth; empty: none has slipped yet
 };
 
 }  // namespace garment::model

@@ -33,6 +33,11 @@ enum class Rows {
   rub,
   rub_panels,
   damped,
+  slid_law,
+  slid_cell,
+  slid_membrane,
+  slid_bend,
+  slid_fit,
   moved,
   motion,
   panel,
@@ -57,6 +62,11 @@ inline bool is_rare(Rows rows) {
     case Rows::rub:
     case Rows::rub_panels:
     case Rows::damped:
+    case Rows::slid_law:
+    case Rows::slid_cell:
+    case Rows::slid_membrane:
+    case Rows::slid_bend:
+    case Rows::slid_fit:
     case Rows::moved:
       return true;
     default:
@@ -115,6 +125,16 @@ inline std::size_t row_count(const Model& m, Rows rows) {
       return m.rub_panels.size();
     case Rows::damped:
       return m.damping.empty() ? 0 : m.mass.size();
+    case Rows::slid_law:
+      return m.law_slip.empty() ? 0 : m.laws.size();
+    case Rows::slid_cell:
+      return m.cell_slip.empty() ? 0 : m.cell.size();
+    case Rows::slid_membrane:
+      return m.membrane_slip.empty() ? 0 : m.membrane.size();
+    case Rows::slid_bend:
+      return m.bend_slip.empty() ? 0 : m.bend.size();
+    case Rows::slid_fit:
+      return m.fit_slip.size();
     case Rows::moved:
       return m.moved_hold.size();
     case Rows::motion:
@@ -199,6 +219,15 @@ inline std::size_t row_count(const Model& m, Rows rows) {
   X(rub_panels,       rub_panels, panel,    any,          "")      \
   X(rub_panels_factor, rub_panels, none,    not_negative, "")      \
   X(damping,          damped,    none,      not_negative, "s")     \
+  X(law_slip,         slid_law,  none,      not_negative, "")      \
+  X(cell_slip,        slid_cell, none,      not_negative, "N/m")   \
+  X(membrane_slip,    slid_membrane, none,  not_negative, "N/m")   \
+  X(bend_slip,        slid_bend, none,      not_negative, "N")     \
+  X(fit_slip,         slid_fit,  fit,       any,          "")      \
+  X(fit_slip_particle, slid_fit, particle,  any,          "")      \
+  X(fit_slip_way,     slid_fit,  none,      any,          "")      \
+  X(fit_slip_moment,  slid_fit,  none,      not_negative, "N m^2") \
+  X(fit_slip_rigidity, slid_fit, none,      not_negative, "N m^3") \
   X(moved_hold,       moved,     hold,      any,          "")      \
   X(moved_by,         moved,     motion,    any,          "")
 // clang-format on

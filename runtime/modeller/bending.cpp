@@ -8,6 +8,7 @@
 #include "runtime/base/parallel.hpp"
 #include "runtime/modeller/chart.hpp"
 #include "runtime/modeller/folding.hpp"
+#include "runtime/modeller/inner_friction.hpp"
 #include "runtime/modeller/layered_cloth.hpp"
 
 namespace garment::modeller {
@@ -90,10 +91,16 @@ struct Stiffened {
   double factor = 1;
 };
 
+/// How a panel slides in a fitted stencil: its warp in the chart and HB along warp and weft.
+struct FitSlip {
+  Vector2d warp{0, 0}, friction{0, 0};
+};
+
 /// A fitted stencil with the plate matrix of each panel that meets at its particle.
 struct Fit {
   CurvatureFit curvature;
   std::vector<std::pair<Index, Matrix3d>> plate;
+  std::vector<FitSlip> slip{};          // of the same panels
   Stiffened seam{};
   Vector2d along{0, 0};  // the seam in the chart
   std::vector<model::Vector3d> rest{};  // places at rest, where they are folded
@@ -103,6 +110,7 @@ struct Fit {
 void add_plates(const Sheet& sheet, const std::vector<MeshedPanel>& panels, const ClothFields& fields,
                 const model::Model& model, const Chart& chart, Fit& fit) {
   std::vector<double> area;
+  const bool sliding = slides(fields.garment());
   for (std::size_t k = 0; k < chart.fan.size(); ++k) {
     const FanTriangle& f = chart.fan[k];
     const model::Indices<3>& v = sheet.vertex[f.triangle];
@@ -117,13 +125,20 @@ void add_plates(const Sheet& sheet, const std::vector<MeshedPanel>& panels, cons
     while (slot < fit.plate.size() && fit.plate[slot].first != panel) ++slot;
     if (slot == fit.plate.size()) {
       fit.plate.emplace_back(panel, Matrix3d::Zero());
+      fit.slip.emplace_back();
       area.push_back(0);
     }
     const Point2 middle = (model.vertex_uv[v[0]] + model.vertex_uv[v[1]] + model.vertex_uv[v[2]]) / 3;
     fit.plate[slot].second += weight * plate_at(panels, fields, panel, middle, warp);
     area[slot] += weight;
+    fit.slip[slot].warp += weight * warp;
+    if (sliding) fit.slip[slot].friction += weight * bending_friction_at(panels, fields, panel, middle);
   }
-  for (std::size_t slot = 0; slot < area.size(); ++slot) fit.plate[slot].second /= area[slot];
+  for (std::size_t slot = 0; slot < area.size(); ++slot) {
+    fit.plate[slot].second /= area[slot];
+    fit.slip[slot].friction /= area[slot];
+    fit.slip[slot].warp.normalize();
+  }
 }
 
 /// The stiffened seam at each particle.
@@ -248,6 +263,7 @@ void add_grid_bending(const std::vector<MeshedPanel>& panels, const ClothFields&
   std::vector<Index> vertex(model.n_particles(), 0);  // grid particles have one each
   for (std::size_t v = 0; v < model.n_vertices(); ++v)
     vertex[model.vertex_particle[v]] = static_cast<Index>(v);
+  const bool sliding = slides(fields.garment());
   for (std::size_t i = 0; i < stencils.size(); ++i) {
     const GridStencil& s = stencils[i];
     if (!s.complete()) continue;
@@ -265,6 +281,10 @@ void add_grid_bending(const std::vector<MeshedPanel>& panels, const ClothFields&
     model.bend_lengths.emplace_back(h.x(), h.x());
     model.bend_width.push_back(area / h.x());
     model.bend_rigidity.push_back(plate(1, 1));
+    if (sliding) {
+      const Vector2d friction = bending_friction_at(panels, fields, panel, model.vertex_uv[vertex[i]]);
+      model.bend_slip.insert(model.bend_slip.end(), {friction[0], friction[1]});
+    }
     for (Index c : s.cell)
       model.cell_twist[c] += plate(2, 2) / 4 * area / (4 * h.x() * h.y());
   }
@@ -301,6 +321,11 @@ void add_fit(const Fit& fit, const Areas& areas, model::Model& model) {
   Matrix3d sewn = sum;
   stiffen(fit.seam, fit.along, area, sewn);
   add_stencil(fit.curvature.particle, fit.curvature.weight, fit.rest, area, sewn, model);
+  if (fit.rest.empty())
+    for (const PanelArea& a : areas)
+      for (std::size_t slot = 0; slot < fit.plate.size(); ++slot)
+        if (fit.plate[slot].first == a.panel)
+          add_fit_slip(fit.slip[slot].warp, fit.slip[slot].friction, a.area, fit.plate[slot].second, model);
   const Matrix3d stiff = Matrix3d::Identity() * (kResidualShare * (sum(0, 0) + sum(1, 1)) / 2);
   for (const auto& group : fit.curvature.residual)
     add_stencil(fit.curvature.particle, group, fit.rest, area, stiff, model);

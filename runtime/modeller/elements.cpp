@@ -6,6 +6,7 @@
 #include <map>
 
 #include "runtime/base/number.hpp"
+#include "runtime/modeller/inner_friction.hpp"
 #include "runtime/modeller/layered_cloth.hpp"
 #include "runtime/modeller/tensile_law.hpp"
 
@@ -25,9 +26,12 @@ double cell_width(const MeshedPanel& p) { return std::max(p.frame.hp, p.frame.hq
 /// The tensile laws of all fabrics, warp and weft, then those of layers and of cloth that regions make stiffer or softer.
 class Laws {
  public:
-  Laws(const design::Garment& garment, model::Model& model) : model_(model) {
+  Laws(const design::Garment& garment, model::Model& model) : model_(model), sliding_(slides(garment)) {
     for (const design::Fabric& fabric : garment.fabrics)
-      for (const design::Tensile& tensile : fabric.tensile) model.laws.push_back(make_tensile_law(tensile));
+      for (const design::Tensile& tensile : fabric.tensile) {
+        model.laws.push_back(make_tensile_law(tensile));
+        if (sliding_) model.law_slip.push_back(tensile_slip(tensile, model.laws.back()));
+      }
   }
   Index law_of(const ClothAt& cloth, int direction) {
     std::vector<LayeredCloth::Tensile> parts = cloth.tensile(direction);
@@ -43,11 +47,23 @@ class Laws {
     if (fresh) {
       model::TensileLaw sum = add_laws(laws, linear);
       model_.laws.push_back(std::move(sum));
+      if (sliding_) model_.law_slip.push_back(mean_slip(parts));
     }
     return known->second;
   }
 
  private:
+  /// Of laws together the share that is friction: the mean by what each bears at its recorded load.
+  double mean_slip(const std::vector<LayeredCloth::Tensile>& parts) const {
+    double sum = 0, all = 0;
+    for (const LayeredCloth::Tensile& part : parts) {
+      const double force = part.factor * model_.laws[part.law].force.back();
+      sum += force * model_.law_slip[part.law];
+      all += force;
+    }
+    return all > 0 ? sum / all : 0;
+  }
+
   Index scaled(int law, double factor) {
     if (factor == 1) return law;
     const auto [known, fresh] = made_.emplace(std::vector<double>{0, static_cast<double>(law), factor},
@@ -57,10 +73,12 @@ class Laws {
     for (double& force : copy.force) force *= factor;
     for (double& slope : copy.slope) slope *= factor;
     model_.laws.push_back(std::move(copy));
+    if (sliding_) model_.law_slip.push_back(model_.law_slip[law]);
     return known->second;
   }
 
   model::Model& model_;
+  bool sliding_;
   std::map<std::vector<double>, Index> made_;  // by linear part, then law and factor of each
 };
 
@@ -265,6 +283,7 @@ void add_elements(const design::Garment& garment, const std::vector<MeshedPanel>
     add_springs(e, model);
     add_membranes(e, model);
   }
+  if (slides(garment)) add_shear_slip(panels, fields, model);
 }
 
 }  // namespace garment::modeller

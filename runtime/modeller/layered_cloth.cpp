@@ -79,6 +79,25 @@ double LayeredCloth::shear() const {
   return sum * patch_.factors.shear;
 }
 
+Vector2d LayeredCloth::shear_friction() const {
+  Vector2d sum = Vector2d::Zero();
+  for (const Ply& ply : plies_) {
+    const double c = ply.warp.x(), s = ply.warp.y(), share = (c * c - s * s) * (c * c - s * s);
+    sum += share * Vector2d(fabric(ply).shear_friction, fabric(ply).shear_friction_5);
+  }
+  return sum * patch_.factors.shear;
+}
+
+Vector2d LayeredCloth::bending_friction() const {
+  Vector2d sum = Vector2d::Zero();
+  for (const Ply& ply : plies_) {
+    const double c = fourth(ply.warp.x()), s = fourth(ply.warp.y());
+    const auto& hb = fabric(ply).bending_friction;
+    sum += Vector2d(c * hb[0] + s * hb[1], s * hb[0] + c * hb[1]);
+  }
+  return sum.cwiseProduct(Vector2d(patch_.factors.bend_warp, patch_.factors.bend_weft));
+}
+
 Matrix3d LayeredCloth::plate() const {
   Matrix3d sum = Matrix3d::Zero(), a = sum, az = sum, azz = sum;
   for (const Ply& ply : plies_) {
@@ -128,6 +147,18 @@ double ClothAt::mean(double (LayeredCloth::*value)() const) const {
   if (cloths_.size() == 1) return (cloths_[0].*value)();
   double sum = 0;
   for (std::size_t k = 0; k < cloths_.size(); ++k) sum += patches_[k].share * (cloths_[k].*value)();
+  return sum;
+}
+
+Vector2d ClothAt::shear_friction() const {
+  Vector2d sum = Vector2d::Zero();
+  for (std::size_t k = 0; k < cloths_.size(); ++k) sum += patches_[k].share * cloths_[k].shear_friction();
+  return sum;
+}
+
+Vector2d ClothAt::bending_friction() const {
+  Vector2d sum = Vector2d::Zero();
+  for (std::size_t k = 0; k < cloths_.size(); ++k) sum += patches_[k].share * cloths_[k].bending_friction();
   return sum;
 }
 

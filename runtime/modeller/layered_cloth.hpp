@@ -27,6 +27,8 @@ class LayeredCloth {
   double thickness() const;      ///< m
   double friction() const;       ///< Coulomb, on a body
   double shear() const;          ///< G, N/m per rad
+  Eigen::Vector2d shear_friction() const;    ///< HG and HG5, N/m: those of all layers, as their shear
+  Eigen::Vector2d bending_friction() const;  ///< HB along axes 1 and 2, N: those of all layers, fused or not
   Eigen::Matrix3d plate() const;
   /// What makes up the tensile law along the warp (0) or the weft (1).
   struct Tensile {
@@ -63,6 +65,8 @@ class ClothAt {
   double thickness() const { return mean(&LayeredCloth::thickness); }
   double friction() const { return mean(&LayeredCloth::friction); }
   double shear() const { return mean(&LayeredCloth::shear); }
+  Eigen::Vector2d shear_friction() const;
+  Eigen::Vector2d bending_friction() const;
   Eigen::Matrix3d plate() const;
   std::vector<LayeredCloth::Tensile> tensile(int direction) const;  ///< each law once
   double linear(int direction) const;

@@ -14,6 +14,7 @@
 #include "runtime/modeller/damping.hpp"
 #include "runtime/modeller/folding.hpp"
 #include "runtime/modeller/holds.hpp"
+#include "runtime/modeller/inner_friction.hpp"
 #include "runtime/modeller/inner_lines.hpp"
 #include "runtime/modeller/pads.hpp"
 #include "runtime/modeller/placement.hpp"
@@ -71,6 +72,12 @@ bool check_inputs(const design::Garment& garment, const ModelOptions& options, F
              fmt::format("iron `{}` changes lengths by {} %", press.name, format_number(100 * most, 3)),
              "at most half of the length, the factor counted");
   }
+  if (garment.scene.slides_to_rest() && !slides(garment))
+    findings.push_back({"G1329",
+                        Severity::error,
+                        "`hysteresis on`, but no fabric states `two_HB`, `two_HG`, `two_HG5` or `RT`",
+                        {{garment.scene.solver->origin, ""}},
+                        "give the fabric its loops, or leave `hysteresis on` out"});
   return findings.size() == before;
 }
 

@@ -36,6 +36,9 @@ constexpr int kMostRefused = 12;            // steps in a row
 constexpr int kMostRepairs = 12;            // times that a garment at rest may still pierce a body
 constexpr double kExtraOffset = 1e-3;       // m, by which a particle of a pierced part is pushed farther, each time
 constexpr double kMostExtraOffset = 20e-3;  // m
+constexpr double kSlidingResidual = 0.05;   // rest where sliders act and the drape is to be exact: stiff, they hold or slip to the last bits
+constexpr double kSlidingStep = 1e-8;       // m
+constexpr int kIncrements = 10;             // of the weight, where the cloth's own friction acts
 
 bool all_finite(const Vectors& x) {
   return std::all_of(x.begin(), x.end(), [](const Vector3d& p) { return p.allFinite(); });
@@ -119,9 +122,59 @@ class Way {
     }
   }
 
-  DrapeStatus go() {
-    double target = target_residual(d_.settings.settle);
-    while (d_.report.steps < d_.settings.max_steps) {
+  /// Goes to rest. The cloth at rest without its own friction is where it would hang in the end; how it came there the sliders must
+  /// not learn from the solver. So the weight comes on anew, in increments, each brought to rest with the sliders frozen; or only
+  /// the last of them, where the sliders are where they were when the garment hung still (`hangs`).
+  DrapeStatus go(bool hangs) {
+    const double target = target_residual(d_.settings.settle);
+    if (increment_ == 0) {
+      const DrapeStatus status = hangs ? DrapeStatus::at_rest : settle(target, d_.settings.certify);
+      if (!d_.settings.hysteresis || status != DrapeStatus::at_rest) return status;
+      begin_increment(hangs ? kIncrements : 1);
+    }
+    for (;; begin_increment(increment_ + 1)) {
+      const bool last = increment_ == kIncrements;
+      const DrapeStatus status = settle(share() * target, last && d_.settings.certify);
+      if (status != DrapeStatus::at_rest) return status;
+      relaxation_.inner_friction().slip(d_.x);
+      if (last) return status;
+    }
+  }
+
+  Relaxation& relaxation() { return relaxation_; }
+
+  /// In a checkpoint between two steps.
+  void keep(Archive& a) {
+    keep_positions(a, d_.x, d_.model.n_particles(), relaxation_.mesh().largest_contact_distance);
+    a.keep(stage_, Stage::settling);
+    for (int* count : {&steps_in_stage_, &refused_, &repairs_, &d_.report.steps, &increment_, &most_steps_}) {
+      a.keep(*count);
+      a.demand(*count >= 0 && *count <= kMostCounted);
+    }
+    a.demand(increment_ <= kIncrements && (increment_ == 0 || d_.settings.hysteresis));
+    a.keep(last_strain_);
+    a.keep_any(d_.report.newton_step);
+    if (a.reading() && a.ok() && increment_ > 0) relaxation_.inner_friction().set_active(true);
+    relaxation_.keep(a);
+  }
+
+ private:
+  enum class Stage { dressing, soft, settling };
+
+  double share() const { return static_cast<double>(increment_) / kIncrements; }
+
+  void begin_increment(int k) {
+    increment_ = k;
+    relaxation_.inner_friction().set_active(true);
+    relaxation_.set_gravity_scale(share());
+    relaxation_.set_tensile_scale(1);
+    most_steps_ = d_.report.steps + d_.settings.max_steps;
+    enter(Stage::settling);
+    relaxation_.set_time_step(kRestTimeStep);
+  }
+
+  DrapeStatus settle(double target, bool certify) {
+    while (d_.report.steps < most_steps_) {
       const bool stop = d_.stop_asked();
       d_.settings.checkpoints.look(*this, stop);
       if (stop) return DrapeStatus::interrupted;
@@ -137,14 +190,15 @@ class Way {
       d_.tell(step, stage_ == Stage::settling ? "settling" : "dressing");
       d_.report.newton_step = step.newton_step;
       refused_ = step.accepted ? 0 : refused_ + 1;
+      if (step.accepted && !relaxation_.inner_friction().idle()) relaxation_.set_time_step(kRestTimeStep);  // sliders cut it short, not folds
       if (refused_ > kMostRefused) return DrapeStatus::not_settled;
       if (stage_ != Stage::settling) {
         advance(step, target);
         continue;
       }
       bool rest = rests(step, target);
-      if (rest && !d_.settings.certify) return DrapeStatus::at_rest;
-      bool look = d_.settings.certify && step.residual < kNearRest && steps_in_stage_ % kRepairEvery == 0;
+      if (rest && !certify) return DrapeStatus::at_rest;
+      bool look = certify && step.residual < kNearRest && steps_in_stage_ % kRepairEvery == 0;
       if (!rest && !look) continue;
       if (rest) d_.x = before_;  // the state that was judged
       Tangle tangle = find_tangle(all_, d_.bodies, d_.x);
@@ -159,24 +213,6 @@ class Way {
     }
     return DrapeStatus::not_settled;
   }
-
-  Relaxation& relaxation() { return relaxation_; }
-
-  /// In a checkpoint between two steps.
-  void keep(Archive& a) {
-    keep_positions(a, d_.x, d_.model.n_particles(), relaxation_.mesh().largest_contact_distance);
-    a.keep(stage_, Stage::settling);
-    for (int* count : {&steps_in_stage_, &refused_, &repairs_, &d_.report.steps}) {
-      a.keep(*count);
-      a.demand(*count >= 0 && *count <= kMostCounted);
-    }
-    a.keep(last_strain_);
-    a.keep_any(d_.report.newton_step);
-    relaxation_.keep(a);
-  }
-
- private:
-  enum class Stage { dressing, soft, settling };
 
   static RelaxationSettings relaxation_settings(const Drape& d) {
     RelaxationSettings settings;
@@ -209,6 +245,8 @@ class Way {
   }
 
   bool rests(const StepReport& step, double target) const {
+    if (!relaxation_.inner_friction().idle() && d_.settings.settle == Settle::exact)
+      return steps_in_stage_ >= 2 && step.residual <= kSlidingResidual && step.time_step >= kRestTimeStep && step.newton_step < kSlidingStep;
     if (steps_in_stage_ < 2 || !(step.residual <= target)) return false;
     if (d_.settings.settle == Settle::preview) return true;
     return step.time_step >= kRestTimeStep && step.newton_step < kRestStep;
@@ -218,6 +256,7 @@ class Way {
   const ContactMesh& all_;
   Relaxation relaxation_;
   Stage stage_ = Stage::soft;
+  int most_steps_ = d_.settings.max_steps, increment_ = 0;  // of the weight, 0: the sliders have not begun
   int steps_in_stage_ = 0, refused_ = 0, repairs_ = 0;
   double last_strain_ = 1e300;
   Vectors before_;
@@ -291,11 +330,14 @@ DrapeReport drape(const model::Model& model, const std::vector<body::Body>& bodi
   ContactMesh all(model, bodies, ContactOptions{settings.self_collision, 0, 0});
   Way way(d, all);
   if (!settings.checkpoints.resume.empty() && !settings.checkpoints.restore(way)) return not_resumed();
-  report.status = way.go();
+  const bool hangs = settings.hysteresis && settings.checkpoints.resume.empty() && way.relaxation().inner_friction().take_anchors(state.slip);
+  report.status = way.go(hangs);
+  if (!way.relaxation().inner_friction().idle()) state.slip = way.relaxation().inner_friction().anchors();
   Vectors force;
   report.residual = number_or_infinite(way.relaxation().residual(d.x, force));
   report.energy = way.relaxation().energy(d.x);
   report.reactions = way.relaxation().reactions();
+  report.moments = way.relaxation().moments();
   state.position = d.x;
   state.velocity.assign(d.x.size(), Vector3d::Zero());
   Certificate certificate = certify(model, state, bodies);

@@ -29,6 +29,7 @@ struct DrapeSettings {
   int max_steps = 4000;
   bool self_collision = true;
   bool near_rest = false;     ///< the start comes from a coarser grid: no dressing, the true stiffness from the first step
+  bool hysteresis = false;    ///< the cloth's own friction acts: at rest the weight comes on anew, in increments
   bool certify = true;        ///< at rest, go on until the exact test finds nothing; off for coarse grids
   std::function<void(const DrapeProgress&)> progress;  ///< called between steps; may be empty
   std::function<bool()> interrupted;                   ///< asked between steps; may be empty
@@ -55,6 +56,7 @@ struct DrapeReport {
   std::size_t body_intersections = 0;   ///< triangle pairs cloth x body, exact test
   std::size_t inside_body = 0;          ///< particles inside a body
   std::vector<model::Vector3d> reactions;  ///< N, with which each of the model's holders pulls on the cloth
+  std::vector<model::Vector3d> moments;    ///< N m, of the same about the middle of what it holds
   MotionReport motion;              ///< of `drape for`; zero seconds for a drape to rest
   Findings findings;                ///< what could not be reached, with the panel that is the cause
 };

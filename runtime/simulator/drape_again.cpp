@@ -41,6 +41,7 @@ DrapeReport drape_again(const std::vector<model::Model>& coarse, const model::Mo
     DrapeSettings rough = settings;
     rough.near_rest = true;
     rough.certify = false;
+    rough.hysteresis = false;
     rough.max_steps = std::min(settings.max_steps, kMostCoarseSteps);
     const DrapeReport report = drape(level, bodies, on_level, rough);
     steps += report.steps;

@@ -63,6 +63,7 @@ DrapeReport drape_levels(const std::vector<model::Model>& coarse, const model::M
     rough.settle = Settle::preview;
     rough.near_rest = d.from >= 0;
     rough.certify = false;
+    rough.hysteresis = false;
     rough.max_steps = std::min(std::max(1, settings.max_steps - d.steps), kMostCoarseSteps);
     rough.checkpoints = on_level(settings.checkpoints, d, coarse, resume);
     DrapeReport report = drape(level, bodies, on_grid, rough);

@@ -55,6 +55,7 @@ class Mover {
     s_.v = state.velocity;
     s_.v.resize(s_.x.size(), Vector3d::Zero());
     s_.time = state.time;
+    cloth_.inner_friction().take_anchors(state.slip);
   }
 
   void go() {
@@ -104,10 +105,11 @@ class Mover {
     if (a.reading() && a.ok()) tell_redundant();
   }
 
-  void write(model::State& state) const {
+  void write(model::State& state) {
     state.position = s_.x;
     state.velocity = s_.v;
     state.time = s_.time;
+    if (!cloth_.inner_friction().idle()) state.slip = cloth_.inner_friction().anchors();
   }
 
  private:
@@ -127,6 +129,7 @@ class Mover {
     b.kinetic = b.kinetic_start = kinetic_energy(cloth_.model(), s_.v);
     b.stored = b.stored_start = report_.energy = e.stored;
     report_.reactions = reactions(model_, cloth_.holds(), cloth_.force());
+    report_.moments = moments(model_, cloth_.holds(), cloth_.force(), s_.x);
   }
 
   /// False, with a finding, where the stated step is too long.
@@ -195,6 +198,7 @@ class Mover {
     report_.residual = t.residual;
     report_.energy = t.stored;
     report_.reactions = reactions(model_, cloth_.holds(), t.unborne);
+    report_.moments = moments(model_, cloth_.holds(), t.unborne, s_.x);
     if (m.steps == 1 && settings_.method == MotionMethod::dynamic_constraints) {
       redundant_ = constraints_.redundant();
       tell_redundant();

@@ -40,6 +40,7 @@ MovingCloth::MovingCloth(const model::Model& model, const std::vector<body::Body
       last_holds_(moved_.hold_point),
       elastic_(constrained_ ? model : without_ties(model)),
       damping_(model, elastic_),
+      inner_(model, elastic_),
       holds_(moved_),
       matrix_(elastic_.make_matrix()),
       linear_(matrix_.pattern(), holds_),
@@ -126,9 +127,11 @@ Energies MovingCloth::assemble(const Vectors& x, const Vectors& v, double h, dou
     matrix_.clear_added();
     e.stored = elastic_.energy_and_force(x, force_);
     e.dissipation = damping_.add_force(x, h, force_);
+    e.stored += inner_.add_force(x, force_);
   } else {
     e.stored = elastic_.energy_force_hessian(x, force_, matrix_);
     e.dissipation = damping_.add_force_hessian(x, h, force_, matrix_);
+    e.stored += inner_.add_force_hessian(x, force_, matrix_);
   }
   for (std::size_t i = 0; i < x.size(); ++i) force_[i] += moved_.mass[i] * moved_.gravity;
   loads_.follow(x, &v, time);
@@ -149,7 +152,7 @@ Energies MovingCloth::assemble(const Vectors& x, const Vectors& v, double h, dou
 
 Energies MovingCloth::energies(const Vectors& x, double h) {
   Energies e;
-  e.stored = elastic_.energy(x) + weight_energy(x);
+  e.stored = elastic_.energy(x) + inner_.energy(x) + weight_energy(x);
   e.dissipation = damping_.potential(x, h);
   e.dead_loads = loads_.energy(x);
   if (!constrained_) return e;
@@ -234,6 +237,7 @@ MovingCloth::Accepted MovingCloth::accept(const Vectors& x) {
   touching_ = touched_;
   if (constrained_ && !placements_.empty()) out.work_of_bodies = bodies_.work_of_motion(last_placements_, x, friction_);
   if (constrained_) out.friction_heat = friction_.follow(x) + cloth_friction_.follow(x);
+  out.friction_heat += inner_.slip(x);
   bodies_.next_step();
   last_holds_ = moved_.hold_point;
   last_placements_ = placements_;

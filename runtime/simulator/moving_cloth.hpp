@@ -13,6 +13,7 @@
 #include "runtime/simulator/contact_mesh.hpp"
 #include "runtime/simulator/elastic.hpp"
 #include "runtime/simulator/friction.hpp"
+#include "runtime/simulator/inner_friction.hpp"
 #include "runtime/simulator/kelvin_damping.hpp"
 #include "runtime/simulator/kept_candidates.hpp"
 #include "runtime/simulator/linear_solver.hpp"
@@ -22,7 +23,7 @@ namespace garment::simulator {
 
 /// Energies of one position, J.
 struct Energies {
-  double stored = 0;       ///< elastic, weight, contacts with cloth and bodies, friction springs
+  double stored = 0;       ///< elastic, weight, contacts with cloth and bodies, springs of friction and of sliders inside the cloth
   double dissipation = 0;  ///< potential D of the dashpots over the step; the heat is 2 D
   double dead_loads = 0;   ///< potential of the loads, taken as constant
   double sum() const { return stored + dissipation + dead_loads; }
@@ -58,9 +59,15 @@ class MovingCloth {
   BlockMatrix& matrix() { return matrix_; }
   const Loads& loads() const { return loads_; }
   const KelvinDamping& damping() const { return damping_; }
+  InnerFriction& inner_friction() { return inner_; }
   LinearResult solve(const std::vector<Eigen::Vector3d>& b, double tolerance, int iterations, const std::vector<Eigen::Vector3d>& x,
                      std::vector<Eigen::Vector3d>& dx) {
-    return linear_.solve(matrix_, contact_stiffness_, b, tolerance, iterations, dx, &x);
+    LinearResult result = linear_.solve(matrix_, contact_stiffness_, b, tolerance, iterations, dx, &x);
+    for (int k = 0; k < InnerFriction::kRevisions && !inner_.idle(); ++k) {
+      inner_.foresee(x, dx, matrix_);
+      result = linear_.solve(matrix_, contact_stiffness_, b, tolerance, iterations, dx, &x);
+    }
+    return result;
   }
 
   /// Cuts dx back so that x + t dx starts no intersection of cloth with cloth and no particle passes a body. Returns how many particles it changed.
@@ -114,6 +121,7 @@ class MovingCloth {
   std::vector<Eigen::Vector3d> last_holds_;  // their points at the last accepted step
   ElasticModel elastic_;
   KelvinDamping damping_;
+  InnerFriction inner_;
   Holds holds_;
   BlockMatrix matrix_;
   LinearSolver linear_;

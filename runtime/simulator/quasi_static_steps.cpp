@@ -24,6 +24,8 @@ constexpr double kRestTimeStep = 0.25;   // s
 constexpr double kRestStep = 0.5e-3;     // m
 constexpr int kMostSteps = 600;          // of the relaxation, between two moments
 constexpr double kShareOfSpacing = 0.25;
+constexpr double kSnap = 2e-5;            // m, far less than cloth keeps from cloth
+constexpr double kSlidingStep = 1e-8;     // m, instead where cloth has friction of its own: loops are differences of forces
 constexpr double kNothing = 1e-4;        // of the residual at rest: no step is needed to judge it
 
 double mean_spring(const model::Model& model) {
@@ -58,6 +60,7 @@ class Follower {
 
   void go() {
     if (settings_.checkpoints.resume.empty()) {
+      relaxation_.inner_friction().take_anchors(state_.slip);
       place(state_.time);
       begin_to_settle();
     } else if (!settings_.checkpoints.restore(*this)) {
@@ -94,6 +97,7 @@ class Follower {
   static RelaxationSettings relaxation_settings(const MotionSettings& settings) {
     RelaxationSettings out;
     out.self_collision = settings.self_collision;
+    out.hysteresis = true;
     return out;
   }
 
@@ -124,10 +128,13 @@ class Follower {
   void begin_to_settle() {
     relaxation_.set_time_step(kRestTimeStep);
     relaxation_.forget_swings();
+    if (!relaxation_.inner_friction().idle()) snap();
     steps_ = 0;
   }
 
   bool settle() {
+    const bool slides = !relaxation_.inner_friction().idle();
+    const double target = target_residual(Settle::equilibrium), most = slides ? kSlidingStep : kRestStep;
     Vectors before;
     for (; steps_ < kMostSteps && report_.steps < settings_.max_steps; ++steps_) {
       const bool stop_asked = settings_.interrupted && settings_.interrupted();
@@ -148,11 +155,11 @@ class Follower {
       report_.residual = step.residual;
       report_.newton_step = step.newton_step;
       if (settings_.progress)
-        settings_.progress({report_.steps, state_.position.size(), step.residual, target_residual(Settle::equilibrium),
+        settings_.progress({report_.steps, state_.position.size(), step.residual, target,
                             step.largest_motion, "following", state_.time - begun_, settings_.duration});
-      const double target = target_residual(Settle::equilibrium);
-      const bool judged = step.residual <= kNothing * target || (step.time_step >= kRestTimeStep && step.newton_step < kRestStep);
-      if (steps_ > 0 && step.residual <= target && judged && held_in_place()) return true;
+      if (slides && step.accepted) relaxation_.set_time_step(kRestTimeStep);  // sliders, not folds, cut it
+      const bool judged = step.residual <= kNothing * target || (step.time_step >= kRestTimeStep && step.newton_step < most);
+      if (steps_ > 0 && step.residual <= target && judged && held_in_place()) return slip();
     }
     report_.status = DrapeStatus::not_settled;
     Vectors force;
@@ -161,10 +168,25 @@ class Follower {
     report_.findings.push_back({"G0802", Severity::error,
                                 fmt::format("at {} s the residual is {} of the weight after {} steps, {} is rest; most of it is in {}",
                                             format_number(state_.time, 4), format_number(report_.residual, 3), steps_,
-                                            format_number(target_residual(Settle::equilibrium), 3), panel.name),
+                                            format_number(target, 3), panel.name),
                                 {{panel.origin, "most of the net force acts here"}},
                                 "move it less far, or let the cloth move in earnest: leave `solver quasi_static` out"});
     return false;
+  }
+
+  /// Puts what is all but in its hold right there: the energy rises for it, which a step of so little would not be let.
+  void snap() {
+    for (std::size_t h = 0; h < moved_.hold_particle.size(); ++h) {
+      Vector3d& x = state_.position[static_cast<std::size_t>(moved_.hold_particle[h])];
+      if (moved_.hold_kind[h] == model::HoldKind::point && (moved_.hold_point[h] - x).norm() < kSnap) x = moved_.hold_point[h];
+    }
+  }
+
+  /// What slipped on the way to rest stays there.
+  bool slip() {
+    relaxation_.inner_friction().slip(state_.position);
+    if (!relaxation_.inner_friction().idle()) state_.slip = relaxation_.inner_friction().anchors();
+    return true;
   }
 
   bool held_in_place() const {
@@ -185,6 +207,7 @@ class Follower {
     Vectors force;
     report_.residual = relaxation_.residual(state_.position, force);
     report_.reactions = relaxation_.reactions();
+    report_.moments = relaxation_.moments();
     report_.energy = relaxation_.energy(state_.position);
     report_.motion.seconds = state_.time - begun_;
     if (settings_.frame) settings_.frame(state_, report_);
@@ -217,10 +240,13 @@ DrapeReport follow_paths(const model::Model& model, const std::vector<body::Body
   const std::vector<body::Body> now = bodies_at(bodies, model, state.time);
   RelaxationSettings end;
   end.self_collision = settings.self_collision;
+  end.hysteresis = true;
   Relaxation last(moved, now, end);
+  last.inner_friction().take_anchors(state.slip);
   Vectors force;
   (void)last.residual(state.position, force);
   report.reactions = last.reactions();
+  report.moments = last.moments();
   report.energy = last.energy(state.position);
   return report;
 }

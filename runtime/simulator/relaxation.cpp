@@ -20,6 +20,7 @@ constexpr double kSmallestTimeStep = 1e-4; // s
 constexpr double kLinearTolerance = 0.03;
 constexpr int kLinearIterations = 200;
 constexpr double kRounding = 1e-10;        // share of the energy that sums of it may be off
+constexpr double kSlidingRounding = 1e-13;
 constexpr int kForesights = 1;             // times that the contacts of one step are revised
 constexpr int kHalvings = 4;               // of a step that would raise the energy
 constexpr double kLeastStep = 1e-3;        // share of a step that walls would turn
@@ -43,6 +44,7 @@ Relaxation::Relaxation(const model::Model& model, const std::vector<body::Body>&
     : model_(model),
       settings_(settings),
       elastic_(model),
+      inner_(model, elastic_),
       holds_(model),
       matrix_(elastic_.make_matrix()),
       linear_(matrix_.pattern(), holds_),
@@ -53,6 +55,7 @@ Relaxation::Relaxation(const model::Model& model, const std::vector<body::Body>&
       cloth_friction_(model, Rubbing::stated, settings.friction_give, settings.contact_stiffness),
       loads_(model),
       spacing_(mean_edge(model)) {
+  inner_.set_active(settings.hysteresis);
   turns_.assign(model.n_particles(), 0);
   damping_.assign(model.n_particles(), 0);
   last_motion_.assign(model.n_particles(), Vector3d::Zero());
@@ -112,7 +115,7 @@ double Relaxation::energy(const Vectors& x) const { return elastic_.energy(x) + 
 
 double Relaxation::total_energy(const Vectors& x, std::vector<Contact>& contacts) const {
   active_contacts(mesh_, candidates_.list(), x, contacts, &shares_);
-  return energy(x) + loads_.energy(x, settings_.gravity_scale) + contact_energy_sum(contacts) + bodies_.energy(x) +
+  return energy(x) + inner_.energy(x) + loads_.energy(x, settings_.gravity_scale) + contact_energy_sum(contacts) + bodies_.energy(x) +
          friction_.energy(x) + cloth_friction_.energy(x);
 }
 
@@ -142,12 +145,14 @@ double Relaxation::residual(const Vectors& x, Vectors& force) {
   find_contacts(x, contacts_);
   elastic_.follow(x);
   elastic_.energy_and_force(x, force);
+  inner_.add_force(x, force);
   add_external_forces(x, force);
   collect_normal_forces(x);
   add_contact_forces(contacts_, settings_.contact_stiffness, force, nullptr, stiffness_);
   cloth_friction_.begin(mesh_, candidates_.list(), contacts_, settings_.contact_stiffness);
   cloth_friction_.add_force(x, force, nullptr, nullptr);
   reactions_ = simulator::reactions(model_, holds_, force);
+  moments_ = simulator::moments(model_, holds_, force, x);
   return residual_of(force);
 }
 
@@ -187,6 +192,7 @@ double Relaxation::assemble(const Vectors& x, StepReport& report) {
   report.contacts = contacts_.size();
   elastic_.follow(x);
   double elastic = elastic_.energy_force_hessian(x, force_, matrix_);
+  const double slid = inner_.add_force_hessian(x, force_, matrix_);
   add_external_forces(x, force_);
   loads_.add_stiffness(matrix_, settings_.gravity_scale);
   collect_normal_forces(x);
@@ -201,7 +207,7 @@ double Relaxation::assemble(const Vectors& x, StepReport& report) {
   report.energy = elastic + gravity_energy(x);
   for (std::size_t i = 0; i < x.size(); ++i)
     matrix_.add_diagonal(i, model_.mass[i] / (time_step_ * time_step_) + damping_[i]);
-  return report.energy + loads_.energy(x, settings_.gravity_scale) + contact_energy_sum(contacts_) + bodies_.energy(x) +
+  return report.energy + slid + loads_.energy(x, settings_.gravity_scale) + contact_energy_sum(contacts_) + bodies_.energy(x) +
          friction_.energy(x) + cloth_friction_.energy(x);
 }
 
@@ -209,8 +215,12 @@ double Relaxation::assemble(const Vectors& x, StepReport& report) {
 /// would be pressed after the step is counted as touching, and the system is solved again (active set).
 void Relaxation::solve_step(const Vectors& x, StepReport& report) {
   for (int round = 0;; ++round) {
-    report.linear_iterations +=
-        linear_.solve(matrix_, stiffness_, force_, kLinearTolerance, kLinearIterations, dx_, &x).iterations;
+    for (int revised = 0;; ++revised) {
+      report.linear_iterations +=
+          linear_.solve(matrix_, stiffness_, force_, kLinearTolerance, kLinearIterations, dx_, &x).iterations;
+      if (inner_.idle() || revised == InnerFriction::kRevisions) break;
+      inner_.foresee(x, dx_, matrix_);
+    }
     if (round == kForesights) return;
     const std::size_t coming = foresee_contacts(x);
     if (bodies_.foresee(x, dx_, holds_, force_, matrix_) + coming == 0) return;
@@ -266,10 +276,12 @@ TruncateStats Relaxation::keep_apart(const Vectors& x) {
 double Relaxation::search(const Vectors& x, double before, bool driven, StepReport& report) {
   trial_.resize(x.size());
   double after = 0;
+  // Sliders that take turns between holding and slipping do so within what the sums are off by.
+  const double above = inner_.idle() ? kRounding * std::abs(before) + 1e-12 : kSlidingRounding * std::abs(before) + 1e-16;
   auto go = [&] {
     for (std::size_t i = 0; i < x.size(); ++i) trial_[i] = x[i] + report.scale * dx_[i];
     after = total_energy(trial_, trial_contacts_);
-    return driven || !(after > before + kRounding * std::abs(before) + 1e-12);
+    return driven || !(after > before + above);
   };
   bool well = go();
   for (int k = 0; k < kHalvings && !well; ++k) {

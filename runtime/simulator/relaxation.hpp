@@ -14,6 +14,7 @@
 #include "runtime/simulator/contact_mesh.hpp"
 #include "runtime/simulator/elastic.hpp"
 #include "runtime/simulator/friction.hpp"
+#include "runtime/simulator/inner_friction.hpp"
 #include "runtime/simulator/kept_candidates.hpp"
 #include "runtime/simulator/linear_solver.hpp"
 #include "runtime/simulator/loads.hpp"
@@ -29,6 +30,7 @@ struct RelaxationSettings {
   BodyContactSettings body;
   double friction_give = 3e-4;      ///< m, by which a contact with a body gives way before it slips
   double gravity_scale = 1;
+  bool hysteresis = false;          ///< the sliders inside the cloth act, where the model has any
 };
 
 struct StepReport {
@@ -58,8 +60,12 @@ class Relaxation {
 
   /// Elastic and gravity energy at x, J.
   double energy(const std::vector<Eigen::Vector3d>& x) const;
-  /// With which each holder pulled on the cloth at the last `residual`, N.
+  /// With which each holder pulled on the cloth at the last `residual`, N, and its moment, N m.
   const std::vector<Eigen::Vector3d>& reactions() const { return reactions_; }
+  const std::vector<Eigen::Vector3d>& moments() const { return moments_; }
+  /// The sliders inside the cloth: frozen in steps, they go on where `slip` is called.
+  InnerFriction& inner_friction() { return inner_; }
+  const InnerFriction& inner_friction() const { return inner_; }
 
   /// Moves the bodies from where they are given to where they are now.
   void place_bodies(const std::vector<model::Placement>& placements) { bodies_.place(placements, friction_); }
@@ -106,6 +112,7 @@ class Relaxation {
   const model::Model& model_;
   RelaxationSettings settings_;
   ElasticModel elastic_;
+  InnerFriction inner_;
   Holds holds_;
   BlockMatrix matrix_;
   LinearSolver linear_;
@@ -115,7 +122,7 @@ class Relaxation {
   BodyFriction friction_;
   ClothFriction cloth_friction_;
   Loads loads_;
-  std::vector<Eigen::Vector3d> reactions_;
+  std::vector<Eigen::Vector3d> reactions_, moments_;
   Tangle tangle_;
   double spacing_ = 0.01;             // mean edge length, m
   double time_step_ = 1.0 / 60;

@@ -62,6 +62,7 @@ void keep(Archive& a, DrapeReport& report, std::size_t n_holders) {
   for (double* value : {&report.residual, &report.newton_step, &report.energy}) a.keep_any(*value);
   for (std::size_t* count : {&report.self_intersections, &report.body_intersections, &report.inside_body}) a.keep(*count);
   model::keep(a, report.reactions, n_holders, true);
+  model::keep(a, report.moments, n_holders, true);
   MotionReport& m = report.motion;
   EnergyBalance& b = m.balance;
   a.keep(m.steps);
@@ -170,6 +171,16 @@ void Preconditioner::keep(Archive& a) {
 
 void LinearSolver::keep(Archive& a) { preconditioner_.keep(a); }
 
+void InnerFriction::keep(Archive& a) {
+  bool acts = !idle_;
+  a.keep(acts);
+  a.demand(acts == !idle_);
+  if (!acts || !a.ok()) return;
+  std::vector<double> now = anchors();
+  a.keep(now);
+  if (a.reading() && a.ok()) a.demand(take_anchors(now));
+}
+
 // ---- the solvers
 
 void Relaxation::keep(Archive& a) {
@@ -185,6 +196,7 @@ void Relaxation::keep(Archive& a) {
   bodies_.keep(a);
   friction_.keep(a);
   cloth_friction_.keep(a);
+  inner_.keep(a);
   linear_.keep(a);
   candidates_.keep(a);
   if (!a.reading() || !a.ok()) return;
@@ -203,6 +215,7 @@ void MovingCloth::keep(Archive& a, double time) {
   bodies_.keep(a);
   friction_.keep(a);
   cloth_friction_.keep(a);
+  inner_.keep(a);
   linear_.keep(a);
   candidates_.keep(a);
   a.keep(looked_);

@@ -34,7 +34,7 @@ friction ball shell 0.25
 friction shell inner 0.4
 wind (0, 0, 5 m/s) gust 20%
 drag 1.2
-solver implicit step 1 ms
+solver implicit step 1 ms hysteresis on
 )";
 
 }  // namespace
@@ -75,6 +75,8 @@ TEST_CASE("the scene is carried into the declared garment") {
   REQUIRE(scene.solver);
   CHECK(scene.solver->method == design::SolverChoice::Method::implicit);
   CHECK(scene.solver->step == Approx(1e-3));
+  CHECK(scene.slides());
+  CHECK(scene.slides_to_rest());
   CHECK(trial.result.garment.panels[0].placement.folded);
 }
 
@@ -90,6 +92,7 @@ TEST_CASE("a printed scene says the same again") {
   CHECK(unparse(second.result.garment, options) == text);
   CHECK(second.result.garment.scene.paths[0].poses.size() == 3);
   CHECK(second.result.garment.scene.constraints.size() == 2);
+  CHECK(second.result.garment.scene.slides_to_rest());
   CHECK(second.result.garment.panels[0].placement.folded);
 }
 
