@@ -45,14 +45,14 @@ std::optional<double> length_of(std::string_view text) {
     --n;
   const auto number = parse_number(text.substr(0, n));
   if (!number || !(*number > 0)) return std::nullopt;
-  struct Unit {
+  struct LengthUnit {
     const char* name;
     double metres;
   };
-  constexpr Unit kLengthUnits[] = {{"", kPixel},      {"px", kPixel}, {"mm", 1e-3},
-                                   {"cm", 1e-2},      {"in", kInch},  {"pt", kInch / 72},
-                                   {"pc", kInch / 6}, {"Q", 2.5e-4},  {"m", 1}};
-  for (const Unit& u : kLengthUnits)
+  constexpr LengthUnit kLengthUnits[] = {{"", kPixel},      {"px", kPixel}, {"mm", 1e-3},
+                                         {"cm", 1e-2},      {"in", kInch},  {"pt", kInch / 72},
+                                         {"pc", kInch / 6}, {"Q", 2.5e-4},  {"m", 1}};
+  for (const LengthUnit& u : kLengthUnits)
     if (text.substr(n) == u.name) return *number * u.metres;
   return std::nullopt;
 }
