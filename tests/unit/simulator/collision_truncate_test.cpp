@@ -33,6 +33,15 @@ void fold(std::vector<Vector3d>& x, std::size_t first, std::size_t n, double len
   }
 }
 
+/// Two sheets in layers, the second over the first.
+std::vector<Vector3d> folded(const model::Model& m, std::size_t n_first) {
+  std::vector<Vector3d> x = m.start;
+  fold(x, 0, n_first, 0.03, 0.006);
+  fold(x, n_first, x.size() - n_first, 0.035, 0.005);
+  for (std::size_t i = n_first; i < x.size(); ++i) x[i] += Vector3d(0.004, 0.05, 0.003);
+  return x;
+}
+
 Vector3d random_step(Random& random, int step, std::size_t i, double size) {
   // Noise, common drift, and squeezing towards the middle, by turns.
   switch (step % 4) {
@@ -53,10 +62,7 @@ TEST_CASE("2000 huge random steps of folded sheets do not cut", "[collision]") {
   const model::Model a = test::sheet(14, 6, 0.01), b = test::sheet(12, 5, 0.01);
   const model::Model m = test::join(a, b);
   const ContactMesh mesh(m, {});
-  std::vector<Vector3d> x = m.start;
-  fold(x, 0, a.n_particles(), 0.03, 0.006);
-  fold(x, a.n_particles(), b.n_particles(), 0.035, 0.005);
-  for (std::size_t i = a.n_particles(); i < x.size(); ++i) x[i] += Vector3d(0.004, 0.05, 0.003);
+  std::vector<Vector3d> x = folded(m, a.n_particles());
   REQUIRE(find_tangle(mesh, {}, x).empty());
   Random random(10);
   Candidates candidates;
@@ -84,10 +90,7 @@ TEST_CASE("folded sheets that fly and turn go their way, and do not cut", "[coll
   const model::Model a = test::sheet(13, 9, 0.01), b = test::sheet(9, 11, 0.01);
   const model::Model m = test::join(a, b);
   const ContactMesh mesh(m, {});
-  std::vector<Vector3d> x = m.start;
-  fold(x, 0, a.n_particles(), 0.03, 0.006);
-  fold(x, a.n_particles(), b.n_particles(), 0.035, 0.005);
-  for (std::size_t i = a.n_particles(); i < x.size(); ++i) x[i] += Vector3d(0.004, 0.05, 0.003);
+  std::vector<Vector3d> x = folded(m, a.n_particles());
   Random random(12);
   KeptCandidates candidates(mesh, 0.01);
   double wished = 0, gone = 0;
