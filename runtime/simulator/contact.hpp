@@ -29,7 +29,7 @@ struct Contact {
 };
 
 /// All contacts with distance < contact distance among the pairs that are not exempt; sorted by pair.
-/// Complete while `candidates.valid(x)`. Same result for any thread count. Overwrites `out`, keeps its
+/// Complete while `candidates.complete(mesh, x, nullptr, mesh.largest_contact_distance)`. Same result for any thread count. Overwrites `out`, keeps its
 /// memory. `shares` [candidates.pairs(), 0: not active], when given, stand for those that x would ask for.
 void active_contacts(const ContactMesh& mesh, const Candidates& candidates, const std::vector<Vector3d>& x,
                      std::vector<Contact>& out, const std::vector<float>* shares = nullptr);

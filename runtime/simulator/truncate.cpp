@@ -327,7 +327,7 @@ std::size_t stay_within_reach(const Candidates& candidates, const std::vector<Ve
     if (share[i] < 1) ++out;
   }
   for (std::size_t i = 0; i < dx.size(); ++i) dx[i] *= all_in ? share[i] : 0;
-  return out;
+  return all_in ? out : dx.size();  // who is out already and wants back stops too: that has to be told
 }
 
 }  // namespace

@@ -122,6 +122,24 @@ TEST_CASE("folded sheets that fly and turn go their way, and do not cut", "[coll
   CHECK(lists < steps / 2);  // what goes on together leaves the list as it is
 }
 
+TEST_CASE("where a list is too old for a step all stop, and that is told", "[collision]") {
+  const model::Model a = test::sheet(9, 7, 0.01), b = test::sheet(9, 7, 0.01);
+  const model::Model m = test::join(a, b);
+  const ContactMesh mesh(m, {});
+  std::vector<Vector3d> x = m.start;
+  for (std::size_t i = a.n_particles(); i < x.size(); ++i) x[i][1] += 0.05;
+  Candidates candidates;
+  candidates.rebuild(mesh, x, 0.006);
+  // The second sheet is far from where it was listed, just over the first; it wants back, then through it.
+  for (std::size_t i = a.n_particles(); i < x.size(); ++i) x[i] += Vector3d(0.003, -0.045, 0.002);
+  for (const double way : {0.045, -0.02}) {
+    std::vector<Vector3d> dx(x.size(), Vector3d::Zero());
+    for (std::size_t i = a.n_particles(); i < x.size(); ++i) dx[i][1] = way;
+    CHECK(truncate(mesh, candidates, x, dx).out_of_reach == x.size());
+    for (const Vector3d& d : dx) REQUIRE(d.norm() == 0);
+  }
+}
+
 TEST_CASE("500 huge random steps of a sheet on a ball do not cut", "[collision]") {
   const std::vector<body::Body> bodies{test::ball(0.04, {0.06, -0.042, -0.06})};
   const model::Model m = test::sheet(13, 13, 0.01);
