@@ -32,6 +32,11 @@ constexpr double kFirstTimeStep = 1.0 / 60; // s
 constexpr double kRestStep = 0.5e-3;        // m, largest Newton step of a garment at rest
 constexpr double kExactGive = 2e-7;         // m, of friction where the drape is to be exact
 constexpr double kRestTimeStep = 0.25;      // s, the step is judged with little regularisation only
+constexpr double kCalmTimeStep = 0.02;      // s, in which soft folds hardly move while threads come right
+constexpr double kCalmStep = 0.15e-3;       // m, largest way of a step from which the folds have arrived
+constexpr int kCalmSteps = 4;
+constexpr int kCalmPause = 10;              // steps until the next try
+constexpr double kCalmResidual = 20;        // times that of rest, from which calming is worth a try
 constexpr int kMostRefused = 12;            // steps in a row
 constexpr int kMostRepairs = 12;            // times that a garment at rest may still pierce a body
 constexpr double kExtraOffset = 1e-3;       // m, by which a particle of a pierced part is pushed farther, each time
@@ -147,10 +152,11 @@ class Way {
   void keep(Archive& a) {
     keep_positions(a, d_.x, d_.model.n_particles(), relaxation_.mesh().largest_contact_distance);
     a.keep(stage_, Stage::settling);
-    for (int* count : {&steps_in_stage_, &refused_, &repairs_, &d_.report.steps, &increment_, &most_steps_}) {
+    for (int* count : {&steps_in_stage_, &refused_, &repairs_, &d_.report.steps, &increment_, &most_steps_, &calming_, &pause_}) {
       a.keep(*count);
       a.demand(*count >= 0 && *count <= kMostCounted);
     }
+    a.demand(calming_ <= kCalmSteps + 1 && pause_ <= kCalmPause);
     a.demand(increment_ <= kIncrements && (increment_ == 0 || d_.settings.hysteresis));
     a.keep(last_strain_);
     a.keep_any(d_.report.newton_step);
@@ -178,6 +184,10 @@ class Way {
       const bool stop = d_.stop_asked();
       d_.settings.checkpoints.look(*this, stop);
       if (stop) return DrapeStatus::interrupted;
+      if (calming_ > 0)
+        relaxation_.set_time_step(calming_ == 1 ? kRestTimeStep : kCalmTimeStep);
+      else
+        relaxation_.coast(d_.x);
       before_ = d_.x;
       StepReport step = relaxation_.step(d_.x);
       ++d_.report.steps;
@@ -197,6 +207,7 @@ class Way {
         continue;
       }
       bool rest = rests(step, target);
+      if (!rest) calm(step, target);
       if (rest && !certify) return DrapeStatus::at_rest;
       bool look = certify && step.residual < kNearRest && steps_in_stage_ % kRepairEvery == 0;
       if (!rest && !look) continue;
@@ -208,7 +219,7 @@ class Way {
       if (d_.settings.self_collision) relaxation_.set_tangle(find_tangle(relaxation_.mesh(), no_bodies(), d_.x));
       if (rest) {
         steps_in_stage_ = 0;
-        relaxation_.forget_swings();
+        relaxation_.forget_motion();
       }
     }
     return DrapeStatus::not_settled;
@@ -237,11 +248,31 @@ class Way {
     }
   }
 
+  /// Every long step along a fold that still travels stretches threads to the second order: near rest the residual tells of the
+  /// last step more than of the place. Some steps too short for folds bring the threads right, and then the place is judged.
+  void calm(const StepReport& step, double target) {
+    if (d_.settings.settle != Settle::equilibrium || !relaxation_.inner_friction().idle()) return;
+    if (calming_ > 1) {
+      calming_ = step.residual <= target ? 1 : calming_ - 1;
+    } else if (calming_ == 1) {
+      calming_ = 0;
+      pause_ = kCalmPause;
+    } else if (pause_ > 0) {
+      --pause_;
+    } else if (step.time_step < kRestTimeStep) {
+      if (step.residual <= target) calming_ = 1;  // only the step is too short to judge by
+    } else if (std::max(step.newton_step, step.largest_motion) < kCalmStep && step.residual < kCalmResidual * target) {
+      calming_ = kCalmSteps + 1;
+    }
+    if (calming_ > 0) relaxation_.stop();
+  }
+
   void enter(Stage stage) {
     stage_ = stage;
+    calming_ = pause_ = 0;
     steps_in_stage_ = 0;
     relaxation_.set_time_step(kFirstTimeStep);
-    relaxation_.forget_swings();
+    relaxation_.forget_motion();
   }
 
   bool rests(const StepReport& step, double target) const {
@@ -258,6 +289,8 @@ class Way {
   Stage stage_ = Stage::soft;
   int most_steps_ = d_.settings.max_steps, increment_ = 0;  // of the weight, 0: the sliders have not begun
   int steps_in_stage_ = 0, refused_ = 0, repairs_ = 0;
+  int calming_ = 0;  // steps to go until the place is judged, that one included
+  int pause_ = 0;    // steps until the next try
   double last_strain_ = 1e300;
   Vectors before_;
 };

@@ -39,6 +39,7 @@ DrapeReport drape_again(const std::vector<model::Model>& coarse, const model::Mo
     on_level.position = prolong(model, state.position, level);
     const Vectors before = prolong(level, on_level.position, model);
     DrapeSettings rough = settings;
+    rough.settle = Settle::preview;
     rough.near_rest = true;
     rough.certify = false;
     rough.hysteresis = false;

@@ -76,7 +76,7 @@ DrapeReport drape_levels(const std::vector<model::Model>& coarse, const model::M
       return report;
     }
     // What a coarse cloth cuts off a body the finer one mends; what it ties into knots stays tied.
-    if (report.status == DrapeStatus::diverged || report.self_intersections > 0) continue;
+    if (report.status == DrapeStatus::diverged || (settings.self_collision && report.self_intersections > 0)) continue;
     d.from = static_cast<int>(d.level);
     d.positions = std::move(on_grid.position);
   }

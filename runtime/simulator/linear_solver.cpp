@@ -35,7 +35,7 @@ double LinearSolver::multiply(const BlockMatrix& matrix, const std::vector<Conta
 LinearResult LinearSolver::solve(const BlockMatrix& matrix, const std::vector<ContactStiffness>& contacts,
                                  const std::vector<Eigen::Vector3d>& b, double tolerance, int max_iterations,
                                  std::vector<Eigen::Vector3d>& x,
-                                 const std::vector<Eigen::Vector3d>* positions) {
+                                 const std::vector<Eigen::Vector3d>* positions, bool begun) {
   const std::size_t n = b.size();
   preconditioner_.factor(matrix, positions, contacts);
   r_.resize(n);
@@ -43,6 +43,20 @@ LinearResult LinearSolver::solve(const BlockMatrix& matrix, const std::vector<Co
   x_.assign(n, Eigen::Vector3f::Zero());
   double rz = preconditioner_.apply(r_, z_);
   const double start = rz;
+  if (begun) {
+    p_.resize(n);
+    for (std::size_t i = 0; i < n; ++i) p_[i] = holds_.filtered(i, x[i]).cast<float>();
+    multiply(matrix, contacts);
+    for (std::size_t i = 0; i < n; ++i) Ap_[i] = r_[i] - Ap_[i];
+    const double left = preconditioner_.apply(Ap_, z_);
+    if (left < start) {  // else zero is nearer
+      x_.swap(p_);
+      r_.swap(Ap_);
+      rz = left;
+    } else {
+      preconditioner_.apply(r_, z_);
+    }
+  }
   p_ = z_;
   LinearResult result;
   while (result.iterations < max_iterations && rz > tolerance * tolerance * start && rz > 0) {

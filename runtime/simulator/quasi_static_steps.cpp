@@ -127,7 +127,7 @@ class Follower {
 
   void begin_to_settle() {
     relaxation_.set_time_step(kRestTimeStep);
-    relaxation_.forget_swings();
+    relaxation_.forget_motion();
     if (!relaxation_.inner_friction().idle()) snap();
     steps_ = 0;
   }

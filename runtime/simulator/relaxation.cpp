@@ -29,6 +29,7 @@ constexpr int kFreeTurns = 4;              // in a row that say nothing yet
 constexpr double kLeastSwing = 2e-5;       // m
 constexpr double kLeastDamping = 10, kMostDamping = 1e4;  // N/m
 constexpr double kForgetDamping = 0.8;     // per step
+constexpr double kMostCoasted = 0.5;       // cells, ahead of a step
 constexpr double kHoldSpeed = 5e-3;        // m per step towards a hold's place
 
 double largest(const Vectors& v) {
@@ -217,7 +218,7 @@ void Relaxation::solve_step(const Vectors& x, StepReport& report) {
   for (int round = 0;; ++round) {
     for (int revised = 0;; ++revised) {
       report.linear_iterations +=
-          linear_.solve(matrix_, stiffness_, force_, kLinearTolerance, kLinearIterations, dx_, &x).iterations;
+          linear_.solve(matrix_, stiffness_, force_, kLinearTolerance, kLinearIterations, dx_, &x, round + revised > 0).iterations;
       if (inner_.idle() || revised == InnerFriction::kRevisions) break;
       inner_.foresee(x, dx_, matrix_);
     }
@@ -306,6 +307,21 @@ void Relaxation::damp(const Vectors& before, const Vectors& after) {
   }
 }
 
+void Relaxation::coast(Vectors& x) {
+  origin_.clear();
+  if (!tangle_.empty() || !inner_.idle()) return momentum_.forget();  // the energy says nothing, or the way counts
+  double share = momentum_.share();
+  if (share <= 0) return;
+  const Vectors& way = momentum_.way();
+  share = std::min(share, kMostCoasted * spacing_ / std::max(largest(way), 1e-12));
+  dx_.resize(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) dx_[i] = holds_.filtered(i, Vector3d(share * way[i]));
+  refresh_candidates(x);
+  truncate(mesh_, candidates_.list(), x, dx_);
+  origin_ = x;
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] += dx_[i];
+}
+
 StepReport Relaxation::step(Vectors& x) {
   StepReport report;
   report.time_step = time_step_;
@@ -328,12 +344,21 @@ StepReport Relaxation::step(Vectors& x) {
   }
   report.limited = cut.limited;
   report.out_of_reach = cut.out_of_reach;
+  if (!origin_.empty() && (!report.accepted || momentum_.rose(after))) {
+    x.swap(origin_);
+    origin_.clear();
+    momentum_.forget();
+    return report;
+  }
   if (!report.accepted) {
     time_step_ = std::max(kSmallestTimeStep, time_step_ / 4);
     return report;
   }
-  report.largest_motion = report.scale * largest(dx_);
   damp(x, trial_);
+  momentum_.went(origin_.empty() ? x : origin_, trial_, wish_, after);
+  report.largest_motion = largest(momentum_.way());
+  if (driven) momentum_.forget();
+  origin_.clear();
   bodies_.next_step();
   x.swap(trial_);
   friction_.follow(x);

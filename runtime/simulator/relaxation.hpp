@@ -18,6 +18,7 @@
 #include "runtime/simulator/kept_candidates.hpp"
 #include "runtime/simulator/linear_solver.hpp"
 #include "runtime/simulator/loads.hpp"
+#include "runtime/simulator/momentum.hpp"
 #include "runtime/simulator/truncate.hpp"
 #include "runtime/simulator/untangle.hpp"
 
@@ -36,7 +37,7 @@ struct RelaxationSettings {
 struct StepReport {
   double residual = 0;       ///< RMS net force over RMS weight, before the step
   double newton_step = 0;    ///< m, largest displacement that the linear system asked for
-  double largest_motion = 0; ///< m, largest displacement made
+  double largest_motion = 0; ///< m, largest displacement made, with what x had coasted
   double time_step = 0;      ///< s, of the regularisation
   double energy = 0;         ///< J
   int linear_iterations = 0;
@@ -51,6 +52,9 @@ class Relaxation {
  public:
   Relaxation(const model::Model& model, const std::vector<body::Body>& bodies, const RelaxationSettings& settings);
 
+  /// Moves x ahead on the way of the last steps, along paths that start no intersection. The next step goes from there, and ends
+  /// where x was before if that did not pay.
+  void coast(std::vector<Eigen::Vector3d>& x);
   /// One step from `x`; changes it. `x` is only ever moved along paths that start no intersection.
   StepReport step(std::vector<Eigen::Vector3d>& x);
 
@@ -68,17 +72,26 @@ class Relaxation {
   const InnerFriction& inner_friction() const { return inner_; }
 
   /// Moves the bodies from where they are given to where they are now.
-  void place_bodies(const std::vector<model::Placement>& placements) { bodies_.place(placements, friction_); }
+  void place_bodies(const std::vector<model::Placement>& placements) {
+    bodies_.place(placements, friction_);
+    stop();
+  }
   /// After the model's holds have moved: planes tilt with what they move with.
-  void follow_holds() { holds_ = Holds(model_); }
+  void follow_holds() {
+    holds_ = Holds(model_);
+    stop();
+  }
   void set_gravity_scale(double scale) { settings_.gravity_scale = scale; }
   void set_tensile_scale(double scale) { elastic_.set_tensile_scale(scale); }
   void set_time_step(double seconds) { time_step_ = seconds; }
-  /// Frees particles that were damped for going back and forth: for when what acts on them has changed.
-  void forget_swings() {
+  /// Frees particles that were damped for going back and forth, and stops all: for when what acts on them has changed.
+  void forget_motion() {
     damping_.assign(damping_.size(), 0);
     turns_.assign(turns_.size(), 0);
+    stop();
   }
+  /// The next step goes from where x is.
+  void stop() { momentum_.forget(); }
   /// By how much more than the settings say bodies keep each particle away, m [n_particles].
   std::vector<double>& extra_offset() { return bodies_.extra_offset(); }
   const ContactMesh& mesh() const { return mesh_; }
@@ -133,6 +146,8 @@ class Relaxation {
   std::vector<double> damping_;  // N/m, of particles that swing [n_particles]
   std::vector<int> turns_;       // how often they turned back [n_particles]
   std::vector<Eigen::Vector3d> last_motion_;
+  Momentum momentum_;
+  std::vector<Eigen::Vector3d> origin_;  // where x was before it coasted; empty: it did not
   std::vector<Eigen::Vector3d> force_, wish_, net_, dx_, whole_, trial_, untangle_;
 };
 

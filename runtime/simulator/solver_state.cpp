@@ -183,6 +183,15 @@ void InnerFriction::keep(Archive& a) {
 
 // ---- the solvers
 
+void Momentum::keep(Archive& a, std::size_t n) {
+  bool moves = !way_.empty();
+  a.keep(moves);
+  if (moves) model::keep(a, way_, n);
+  a.keep(pace_);
+  a.keep_any(energy_);
+  a.demand(pace_ >= 1);
+}
+
 void Relaxation::keep(Archive& a) {
   const std::size_t n = model_.n_particles();
   double tensile_scale = elastic_.tensile_scale();
@@ -192,6 +201,7 @@ void Relaxation::keep(Archive& a) {
   model::keep(a, turns_, n);
   for (const int turns : turns_) a.demand(turns >= 0 && turns < kMostCounted);
   model::keep(a, last_motion_, n);
+  momentum_.keep(a, n);
   simulator::keep(a, tangle_, mesh_);
   bodies_.keep(a);
   friction_.keep(a);

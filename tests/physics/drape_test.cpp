@@ -176,7 +176,7 @@ TEST_CASE("draped: a sheet over a ball rests on it with its whole weight") {
 
 TEST_CASE("draped: a sheet on an incline sticks below the angle of friction and slides above it") {
   const double mu = 0.3;
-  auto on_incline = [&](double share) {
+  auto on_incline = [&](double share, int most_steps) {
     test::SheetSpec spec;
     spec.nx = spec.ny = 6;
     spec.h = 0.02;
@@ -191,25 +191,27 @@ TEST_CASE("draped: a sheet on an incline sticks below the angle of friction and 
     declared.name = "plane";
     declared.shape = design::Floor{};
     declared.friction = mu;
-    const Draped d = drape(m, {body_of(declared)}, simulator::Settle::exact, 150);
+    const Draped d = drape(m, {body_of(declared)}, simulator::Settle::exact, most_steps);
     double moved = 0;
     for (std::size_t i = 0; i < m.n_particles(); ++i)
       moved += (d.state.position[i] - m.start[i]).x() / static_cast<double>(m.n_particles());
     return std::pair(d.report, moved);
   };
-  const auto [sticking, stuck] = on_incline(0.9);
+  const auto [sticking, stuck] = on_incline(0.9, 150);
   INFO("0.9 mu: " << sticking.steps << " steps, residual " << sticking.residual << ", moved " << stuck
                   << " m");
   CHECK(sticking.status == simulator::DrapeStatus::at_rest);
   CHECK(std::abs(stuck) < 1e-6);
-  // Quasi-static cloth does not gather speed: it creeps on, and what friction cannot bear is left as
-  // residual. What it does bear says which coefficient acts.
-  const auto [sliding, slid] = on_incline(1.1);
+  const auto [sliding, slid] = on_incline(1.1, 150);
   INFO("1.1 mu: " << sliding.steps << " steps, residual " << sliding.residual << ", moved " << slid << " m");
   CHECK(sliding.status == simulator::DrapeStatus::not_settled);
   CHECK(slid > 2e-5);
+  // What friction cannot bear is left as residual, and what it does bear says which coefficient acts: looked at while the sheet
+  // only creeps, for later it goes with its momentum and does not press the ground evenly.
+  const auto [creeping, crept] = on_incline(1.1, 16);
+  INFO("at first residual " << creeping.residual << ", moved " << crept << " m");
   const double a = std::atan(1.1 * mu);
-  CHECK((std::sin(a) - sliding.residual) / std::cos(a) == Approx(mu).epsilon(0.02));
+  CHECK((std::sin(a) - creeping.residual) / std::cos(a) == Approx(mu).epsilon(0.02));
 }
 
 TEST_CASE("draped: a sheet that lies on the floor is at rest") {

@@ -160,6 +160,24 @@ TEST_CASE("layers that touch cost few more iterations") {
   CHECK(again.iterations > 0);
 }
 
+TEST_CASE("a solve that begins near the solution ends there sooner, and far from it no later than from zero") {
+  LinearCase c(hanging(12, 9), 0.3);
+  add_contacts(c);
+  const VectorXd expected = dense_solution(c);
+  LinearSolver solver(c.matrix.pattern(), c.holds);
+  std::vector<Vector3d> x;
+  const int cold = solver.solve(c.matrix, c.contacts, c.force, 1e-4, 1000, x, &c.x).iterations;
+  std::vector<Vector3d> near = x;
+  for (std::size_t i = 0; i < near.size(); ++i) near[i] *= 1 + 1e-3 * static_cast<double>(i % 3);
+  const int warm = solver.solve(c.matrix, c.contacts, c.force, 1e-4, 1000, near, &c.x, true).iterations;
+  INFO(cold << " iterations from zero, " << warm << " from nearby");
+  CHECK(warm < cold);
+  CHECK(relative_error(near, expected) < 1e-3);
+  std::vector<Vector3d> far(x.size(), Vector3d(1, -2, 3));
+  CHECK(solver.solve(c.matrix, c.contacts, c.force, 1e-4, 1000, far, &c.x, true).iterations == cold);
+  CHECK(relative_error(far, expected) < 1e-3);
+}
+
 TEST_CASE("a second solve does not remember the first, and positions may come later") {
   LinearCase c(hanging(15, 15), 0.2);
   LinearSolver fresh(c.matrix.pattern(), c.holds), used(c.matrix.pattern(), c.holds);
