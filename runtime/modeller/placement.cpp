@@ -367,6 +367,46 @@ void average_shared(const std::vector<Vector3d>& place, model::Model& model) {
     if (count[i] > 1) model.start[i] /= count[i];
 }
 
+/// Panels that lie on others and share seams with them: with the others moved, they are laid on them anew.
+std::vector<bool> laid_panels(const Workspace& w) {
+  std::vector<bool> laid(w.garment.panels.size(), false);
+  for (const design::Stacking& s : w.garment.stackings) {
+    std::vector<bool> other(laid.size(), false);
+    other[s.other] = !laid[s.other];
+    if (count_shared_particles(w.model, s.panel, other) > 1) laid[s.panel] = true;
+  }
+  return laid;
+}
+
+/// Bent cloth needs a share of its grid's spacing between layers: the two panels' triangles do not lie over each other.
+constexpr double kGapAgain = 0.35;
+
+void lay_again(Workspace& w, const std::vector<bool>& laid, model::Model& model) {
+  for (std::size_t v = 0; v < model.n_vertices(); ++v) w.place[v] = model.start[model.vertex_particle[v]];
+  std::vector<bool> held(model.n_particles(), false);
+  for (std::size_t v = 0; v < model.n_vertices(); ++v)
+    if (!laid[model.vertex_panel[v]]) held[model.vertex_particle[v]] = true;
+  for (const design::Stacking& s : w.garment.stackings) {
+    if (!laid[s.panel]) continue;
+    const double gap = std::max({layer_gap(w.garment, s.panel), layer_gap(w.garment, s.other), kGapAgain * w.garment.panels[s.panel].resolution});
+    if (!lay_panel(w.model, s.panel, s.other, w.flat, s.over ? gap : -gap, w.place)) continue;
+    for_each_vertex(w.model, s.panel, [&](model::Index v) {
+      if (!held[model.vertex_particle[v]]) model.start[model.vertex_particle[v]] = w.place[v];
+      held[model.vertex_particle[v]] = true;
+    });
+  }
+}
+
+/// Takes apart what crosses: first the panels that lie on no other, then, with the others laid on them anew, all.
+void part_cloth(Workspace& w, model::Model& model) {
+  const std::vector<bool> laid = laid_panels(w), none(laid.size(), false);
+  if (std::find(laid.begin(), laid.end(), true) != laid.end() && crosses(model)) {
+    take_apart(w.bodies, laid, model);
+    lay_again(w, laid, model);
+  }
+  take_apart(w.bodies, none, model);
+}
+
 }  // namespace
 
 bool place_panels(const design::Garment& garment, const std::vector<body::Body>& bodies, model::Model& model,
@@ -400,6 +440,7 @@ bool place_panels(const design::Garment& garment, const std::vector<body::Body>&
   average_shared(w.place, model);
   if (dress && any_rigid && ok)
     for (const body::Body& b : bodies) clear_start(b, model);
+  if (dress && any_person && ok) part_cloth(w, model);
   return ok;
 }
 
