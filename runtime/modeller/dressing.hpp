@@ -55,8 +55,8 @@ void spread_seams(const design::Garment& garment, const model::Model& model,
 /// still pierce it. Persons only: a body without parts changes nothing.
 std::size_t clear_start(const body::Body& body, model::Model& model);
 
-/// Does cloth cross cloth in `model.start`?
-bool crosses(const model::Model& model);
+/// Does cloth cross cloth in `model.start`, panels that are `left_out` [n_panels] apart?
+bool crosses(const model::Model& model, const std::vector<bool>& left_out);
 
 /// Takes apart cloth that crosses cloth in `model.start`: seams that pull panels together leave folds beside them that
 /// cut one another. There, and in a growing neighbourhood, the cloth is smoothed like a membrane, which ends embedded

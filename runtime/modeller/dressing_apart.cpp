@@ -132,8 +132,8 @@ class Smoothing {
 
 }  // namespace
 
-bool crosses(const model::Model& model) {
-  return Surface(model, std::vector<bool>(model.panels.size(), false)).crossings(model.start).count > 0;
+bool crosses(const model::Model& model, const std::vector<bool>& left_out) {
+  return Surface(model, left_out).crossings(model.start).count > 0;
 }
 
 std::size_t take_apart(const std::vector<body::Body>& bodies, const std::vector<bool>& left_out, model::Model& model) {
