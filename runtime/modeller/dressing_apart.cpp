@@ -23,7 +23,7 @@ constexpr int kLeastRings = 2;          // of particles round a crossing that ar
 constexpr int kRoundsARing = 4;         // after which the neighbourhood grows by one ring
 constexpr int kSmoothings = 6;          // Jacobi sweeps of a round
 constexpr int kWidenings = 2;           // after each of them
-constexpr double kLeastLength = 0.7;    // that edges keep in the first round, of their length at rest
+constexpr double kKeptLength = 0.7;    // that edges keep in the first round, of their length at rest
 constexpr double kRoundsOfLength = 24;  // over which that falls to nothing: what does not come apart otherwise may shrink
 constexpr double kNoLength = 1e-9;      // m, an edge without a direction
 constexpr std::size_t kMostPairs = 20'000;
@@ -148,7 +148,7 @@ std::size_t take_apart(const std::vector<body::Body>& bodies, const std::vector<
   std::vector<Vector3d> best = model.start;
   for (int round = 0, fruitless = 0; fewest > 0 && round < kMostRounds && fruitless < kMostFruitless; ++round) {
     const std::vector<Index> particles = smoothing.around(crossings, kLeastRings + round / kRoundsARing);
-    smoothing.smooth(particles, kLeastLength * std::max(0.0, 1 - round / kRoundsOfLength), model.start);
+    smoothing.smooth(particles, kKeptLength * std::max(0.0, 1 - round / kRoundsOfLength), model.start);
     std::size_t pierced = 0;
     for (Clearing& clearing : clearings) pierced += clearing.go();
     crossings = surface.crossings(model.start);
