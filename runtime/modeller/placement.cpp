@@ -409,6 +409,10 @@ void lay_again(Workspace& w, const std::vector<bool>& again, const std::vector<V
 /// has its place from another panel alone is left as it lies: a collar that was smoothed would not stay turned over.
 void part_cloth(Workspace& w, model::Model& model) {
   const std::vector<bool> laid = laid_panels(w);
+  if (std::find(laid.begin(), laid.end(), true) == laid.end()) {
+    take_apart(w.bodies, laid, model);
+    return;
+  }
   std::vector<bool> left_out = laid;
   for (std::size_t p = 0; p < laid.size(); ++p)
     left_out[p] = laid[p] && w.garment.panels[p].placement.kind == Placement::Kind::none;
