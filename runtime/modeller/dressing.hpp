@@ -51,9 +51,18 @@ void part_panels(const design::Garment& garment, const model::Model& model,
 void spread_seams(const design::Garment& garment, const model::Model& model,
                   std::vector<Eigen::Vector3d>& place);
 
-/// Moves particles and edges of `model.start` that pierce a person out of it, along the normal of the closest
-/// point of its surface, or, in a leg, away from the leg's middle; neighbours follow smoothly. Returns how
-/// many places still pierce it. Persons only: a body without parts changes nothing.
+/// Moves particles and edges of `model.start` that pierce a person out of it (clearing.hpp). Returns how many places
+/// still pierce it. Persons only: a body without parts changes nothing.
 std::size_t clear_start(const body::Body& body, model::Model& model);
+
+/// Does cloth cross cloth in `model.start`, panels that are `left_out` [n_panels] apart?
+bool crosses(const model::Model& model, const std::vector<bool>& left_out);
+
+/// Takes apart cloth that crosses cloth in `model.start`: seams that pull panels together leave folds beside them that
+/// cut one another. There, and in a growing neighbourhood, the cloth is smoothed like a membrane, which ends embedded
+/// where the body stands between what must not meet, and kept off the bodies. Cloth that crosses nothing stays as it
+/// is. Panels that are `left_out` [n_panels] are not looked at and move only where others hold them. Ends with the fewest
+/// pairs of triangles that were seen to meet, and returns their number.
+std::size_t take_apart(const std::vector<body::Body>& bodies, const std::vector<bool>& left_out, model::Model& model);
 
 }  // namespace garment::modeller

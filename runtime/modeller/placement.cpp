@@ -367,6 +367,61 @@ void average_shared(const std::vector<Vector3d>& place, model::Model& model) {
     if (count[i] > 1) model.start[i] /= count[i];
 }
 
+/// Of the grid's spacing, between layers that lie over each other where both are bent: their triangles do not coincide.
+constexpr double kGapOfGrid = 0.5;
+
+/// Panels that lie on others and share seams with them.
+std::vector<bool> laid_panels(const Workspace& w) {
+  std::vector<bool> laid(w.garment.panels.size(), false);
+  for (const design::Stacking& s : w.garment.stackings) {
+    std::vector<bool> other(laid.size(), false);
+    other[s.other] = !laid[s.other];
+    if (count_shared_particles(w.model, s.panel, other) > 1) laid[s.panel] = true;
+  }
+  return laid;
+}
+
+/// Lays on the others anew the panels among `again` [n_panels] whose other has moved from `before` [n_particles], and, with
+/// more room, those that have a place of their own.
+void lay_again(Workspace& w, const std::vector<bool>& again, const std::vector<Vector3d>& before, model::Model& model) {
+  for (std::size_t v = 0; v < model.n_vertices(); ++v) w.place[v] = model.start[model.vertex_particle[v]];
+  std::vector<bool> held(model.n_particles(), false);
+  for (std::size_t v = 0; v < model.n_vertices(); ++v)
+    if (!again[model.vertex_panel[v]]) held[model.vertex_particle[v]] = true;
+  for (const design::Stacking& s : w.garment.stackings) {
+    if (!again[s.panel]) continue;
+    const bool own = w.garment.panels[s.panel].placement.kind != Placement::Kind::none;
+    bool moved = own;
+    for_each_vertex(w.model, s.other, [&](model::Index v) {
+      moved = moved || model.start[model.vertex_particle[v]] != before[model.vertex_particle[v]];
+    });
+    double gap = std::max(layer_gap(w.garment, s.panel), layer_gap(w.garment, s.other));
+    if (own) gap = std::max(gap, kGapOfGrid * w.garment.panels[s.panel].resolution);
+    if (!moved || !lay_panel(w.model, s.panel, s.other, w.flat, s.over ? gap : -gap, w.place)) continue;
+    for_each_vertex(w.model, s.panel, [&](model::Index v) {
+      if (!held[model.vertex_particle[v]]) model.start[model.vertex_particle[v]] = w.place[v];
+      held[model.vertex_particle[v]] = true;
+    });
+  }
+}
+
+/// Takes apart what crosses: first the panels that lie on no other, then, with the others laid on them anew, linings too. What
+/// has its place from another panel alone is left as it lies: a collar that was smoothed would not stay turned over.
+void part_cloth(Workspace& w, model::Model& model) {
+  const std::vector<bool> laid = laid_panels(w);
+  if (std::find(laid.begin(), laid.end(), true) == laid.end()) {
+    take_apart(w.bodies, laid, model);
+    return;
+  }
+  std::vector<bool> left_out = laid;
+  for (std::size_t p = 0; p < laid.size(); ++p)
+    left_out[p] = laid[p] && w.garment.panels[p].placement.kind == Placement::Kind::none;
+  const std::vector<Vector3d> before = model.start;
+  take_apart(w.bodies, laid, model);
+  if (model.start != before || crosses(model, left_out)) lay_again(w, laid, before, model);
+  take_apart(w.bodies, left_out, model);
+}
+
 }  // namespace
 
 bool place_panels(const design::Garment& garment, const std::vector<body::Body>& bodies, model::Model& model,
@@ -400,6 +455,7 @@ bool place_panels(const design::Garment& garment, const std::vector<body::Body>&
   average_shared(w.place, model);
   if (dress && any_rigid && ok)
     for (const body::Body& b : bodies) clear_start(b, model);
+  if (dress && any_person && ok) part_cloth(w, model);
   return ok;
 }
 

@@ -4,19 +4,21 @@
 #include <cmath>
 
 #include "runtime/base/parallel.hpp"
+#include "runtime/geometry/box_tree.hpp"
 #include "runtime/geometry/exact_sign.hpp"
+#include "runtime/geometry/self_crossings.hpp"
 #include "runtime/geometry/triangle_hit.hpp"
-#include "runtime/simulator/box_tree.hpp"
 
 namespace garment::simulator {
 namespace {
 
+using geometry::BoxTree;
+using geometry::ClosedBox;
 using geometry::Triangle3;
 using model::Index;
 using model::Indices;
 using model::Vector3d;
 
-constexpr double kSamePoint = 1e-9;  // m
 constexpr std::size_t kGrain = 256;  // triangles of one chunk
 
 Triangle3 corners(const Indices<3>& t, const std::vector<Vector3d>& x) { return {x[t[0]], x[t[1]], x[t[2]]}; }
@@ -33,26 +35,6 @@ std::vector<ClosedBox> boxes_of(const std::vector<T>& triangles, const std::vect
   boxes.reserve(triangles.size());
   for (const auto& t : triangles) boxes.push_back(box_of({x[t[0]], x[t[1]], x[t[2]]}));
   return boxes;
-}
-
-bool same_point(Index i, Index j, const Vector3d& a, const Vector3d& b) {
-  return i == j || (a - b).squaredNorm() < kSamePoint * kSamePoint;
-}
-
-bool self_hit(const Indices<3>& s, const Indices<3>& t, const std::vector<Vector3d>& x) {
-  const Triangle3 a = corners(s, x), b = corners(t, x);
-  int shared = 0, at_a = 0, at_b = 0;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      if (same_point(s[i], t[j], a[i], b[j])) {
-        ++shared;
-        at_a = i;
-        at_b = j;
-      }
-  if (shared == 0) return geometry::triangles_hit(a, b);
-  if (shared > 1) return false;
-  return geometry::segment_hits_triangle(a[(at_a + 1) % 3], a[(at_a + 2) % 3], b) ||
-         geometry::segment_hits_triangle(b[(at_b + 1) % 3], b[(at_b + 2) % 3], a);
 }
 
 /// What one chunk of the parallel loop found; chunks are joined in their order, which keeps the lists sorted.
@@ -156,17 +138,10 @@ Certificate certify(const std::vector<Indices<3>>& triangles, const std::vector<
   Certificate out;
   for (const Vector3d& p : positions) out.finite = out.finite && p.allFinite();
   if (!out.finite) return out;
+  const geometry::SelfCrossings self = geometry::self_crossings(triangles, positions, Certificate::kMaxListed);
+  out.self_intersections = self.count;
+  for (const geometry::TrianglePair& pair : self.pairs) out.self_hits.push_back({pair.first, pair.second});
   const std::vector<ClosedBox> boxes = boxes_of(triangles, positions);
-  const BoxTree tree(boxes);
-  collect(triangles.size(), out.self_intersections, out.self_hits, [&](Index i, Found<SelfHit>& found) {
-    const std::size_t first = found.hits.size();
-    tree.visit([&](const ClosedBox& b) { return b.meets(boxes[i]); },
-               [&](std::int32_t j) {
-                 if (j > i && self_hit(triangles[i], triangles[j], positions)) found.add({i, j});
-               });
-    std::sort(found.hits.begin() + static_cast<std::ptrdiff_t>(first), found.hits.end(),
-              [](const SelfHit& p, const SelfHit& q) { return p.b < q.b; });
-  });
   for (std::size_t k = 0; k < bodies.size(); ++k)
     test_body(static_cast<int>(k), *bodies[k], triangles, boxes, positions, out);
   return out;

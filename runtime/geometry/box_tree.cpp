@@ -1,8 +1,8 @@
-#include "runtime/simulator/box_tree.hpp"
+#include "runtime/geometry/box_tree.hpp"
 
 #include <algorithm>
 
-namespace garment::simulator {
+namespace garment::geometry {
 namespace {
 constexpr std::int32_t kLeafSize = 4;
 }
@@ -49,4 +49,4 @@ void BoxTree::fill(std::int32_t node, std::int32_t begin, std::int32_t end,
   fill(child + 1, middle, end, boxes);
 }
 
-}  // namespace garment::simulator
+}  // namespace garment::geometry

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace garment::simulator {
+namespace garment::geometry {
 
 struct ClosedBox {
   Eigen::Vector3d low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
@@ -67,4 +67,4 @@ class BoxTree {
   std::vector<ClosedBox> boxes_;  ///< in the order of the leaves
 };
 
-}  // namespace garment::simulator
+}  // namespace garment::geometry
