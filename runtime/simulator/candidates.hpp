@@ -17,6 +17,8 @@ inline constexpr std::size_t kPairKinds = 5;
 inline bool is_vt(PairKind k) { return k != PairKind::cloth_ee && k != PairKind::cloth_e_body_e; }
 inline bool is_body(PairKind k) { return k > PairKind::cloth_ee; }
 
+inline constexpr std::size_t kPairGrain = 4096;  ///< pairs of one chunk of a parallel loop
+
 /// Two parts that do not share a point.
 struct Pair {
   Index a = -1;                ///< point (VT) or edge (EE); with bodies the cloth's edge

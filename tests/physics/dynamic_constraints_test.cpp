@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "runtime/base/portable_math.hpp"
 #include "runtime/simulator/constraint_steps.hpp"
 #include "tests/support/motion_cases.hpp"
 
@@ -10,9 +11,8 @@ namespace {
 using namespace garment;
 using namespace garment::test;
 using Eigen::Vector3d;
+using portable::kPi;
 using simulator::MotionMethod;
-
-constexpr double kGravity = 9.80665, kPi = 3.14159265358979323846;
 
 model::Model pendulum(double length, double angle) {
   model::Model m = bead(0.1, length);
