@@ -76,7 +76,6 @@ struct Search {
 void Candidates::rebuild(const ContactMesh& mesh, const std::vector<Vector3d>& x, double radius) {
   reference_ = x;
   radius_ = radius;
-  slack_ = std::max(0.0, 0.5 * (radius - mesh.largest_contact_distance));
   reach_ = 0.495 * radius;
   pairs_.clear();
   exempt_.clear();
@@ -125,13 +124,6 @@ void Candidates::rebuild(const ContactMesh& mesh, const std::vector<Vector3d>& x
                      });
                    });
   first_[5] = pairs_.size();
-}
-
-bool Candidates::valid(const std::vector<Vector3d>& x) const {
-  if (x.size() != reference_.size()) return false;
-  for (std::size_t i = 0; i < x.size(); ++i)
-    if (!((x[i] - reference_[i]).squaredNorm() <= slack_ * slack_)) return false;
-  return true;
 }
 
 bool Candidates::complete(const ContactMesh& mesh, const std::vector<Vector3d>& x, const std::vector<Vector3d>* dx,

@@ -327,7 +327,6 @@ StepReport Relaxation::step(Vectors& x) {
     break;
   }
   report.limited = cut.limited;
-  report.out_of_reach = cut.out_of_reach;
   if (!report.accepted) {
     time_step_ = std::max(kSmallestTimeStep, time_step_ / 4);
     return report;
