@@ -45,7 +45,8 @@ TEST_CASE("constraints: rows that say the same twice give the same motion, and a
   model::Model twice = once;
   add_link(twice, 0.5);
   hold_point(twice, 0);
-  simulator::MovingCloth cloth(twice, {}, false, 0, simulator::MovingCloth::Acts::without_constraints);
+  const std::vector<body::Body> no_bodies;  // the cloth keeps a reference
+  simulator::MovingCloth cloth(twice, no_bodies, false, 0, simulator::MovingCloth::Acts::without_constraints);
   simulator::ConstraintSteps steps(cloth, twice);
   simulator::MotionState state;
   state.x = twice.start;
