@@ -39,4 +39,17 @@ T parallel_sum(std::size_t n, std::size_t grain, T zero, const Body& body) {
   return sum;
 }
 
+/// Runs `find(i, list)` for i in [0, n) and appends to `out` what all of them put into their list, in the order of i.
+template <class T, class Find>
+void parallel_collect(std::size_t n, std::size_t grain, std::vector<T>& out, const Find& find) {
+  std::vector<std::vector<T>> found((n + grain - 1) / grain);
+  parallel_for(n, grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) find(i, found[begin / grain]);
+  });
+  std::size_t total = out.size();
+  for (const auto& f : found) total += f.size();
+  out.reserve(total);
+  for (const auto& f : found) out.insert(out.end(), f.begin(), f.end());
+}
+
 }  // namespace garment

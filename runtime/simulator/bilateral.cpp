@@ -12,7 +12,7 @@ using Vectors = std::vector<Vector3d>;
 
 constexpr double kRegularised = 1e-9;  // of a row's diagonal
 constexpr double kRedundant = 1e-7;    // pivot over diagonal of a row that says nothing new
-constexpr double kNothing = 1e-20;  // of a squared gradient
+constexpr double kNoGradient = 1e-20;  // of a squared gradient
 
 ConstraintRow hold_row(Index particle, const Vector3d& n, double value, double drift, std::size_t hold) {
   ConstraintRow row;
@@ -95,7 +95,7 @@ bool moves_something(const ConstraintRow& row) {
     Vector3d sum = Vector3d::Zero();
     for (int j = 0; j < row.n; ++j)
       if (row.particle[j] == row.particle[k]) sum += row.gradient[j];
-    if (sum.squaredNorm() > kNothing) return true;
+    if (sum.squaredNorm() > kNoGradient) return true;
   }
   return false;
 }

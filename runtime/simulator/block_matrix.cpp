@@ -10,7 +10,6 @@ namespace {
 
 using model::Index;
 
-constexpr std::size_t kRowGrain = 1024;
 
 // Four floats in one SSE register: part of every x86-64, so the same bits everywhere.
 using Float4 = float __attribute__((vector_size(16)));

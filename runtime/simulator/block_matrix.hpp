@@ -10,6 +10,8 @@
 
 namespace garment::simulator {
 
+inline constexpr std::size_t kRowGrain = 1024;  ///< rows of one chunk of a parallel loop
+
 /// Which pairs of particles have a block: compressed rows, both triangles, without the diagonal.
 struct BlockPattern {
   std::vector<model::Index> row_begin;  ///< [n + 1]

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "runtime/base/parallel.hpp"
+#include "runtime/simulator/contact_stiffness.hpp"
 
 namespace garment::simulator {
 namespace {
@@ -14,14 +15,13 @@ using Vectors = std::vector<Vector3d>;
 
 constexpr double kOnset = 1e-4;          // m, depth at which a push has its whole stiffness
 constexpr double kLastGap = 3e-4;        // m from the body, where it hardens
-constexpr double kForeseenDepth = 5e-6;  // m, less costs no energy worth a second solution
 constexpr double kSearch = 0.25;         // m, how deep inside a body a particle may start
 
 // Surfaces that face each other.
 constexpr double kFacing = -0.5;         // largest cosine between their normals
 constexpr double kShareOfRoom = 0.45;    // of the room between them, that each may keep free
 constexpr double kLeastOffset = 4e-4;    // m, that each keeps free all the same
-constexpr double kLeastRoom = 3e-3;      // m, narrower places are shut to cloth
+constexpr double kLeastPassage = 3e-3;      // m, narrower places are shut to cloth
 constexpr double kLeastWidening = 0.1;   // m per m, below it a narrow place has no mouth
 constexpr int kRemembered = 40;          // steps
 constexpr double kRememberedWay = 2e-3;  // m
@@ -159,7 +159,7 @@ void BodyContact::give_room(const Vectors& x, std::size_t begin, std::size_t end
       q.offset = std::min(q.offset, most);
       const Vector3d widening = p.normal + q.normal;
       const double rate = widening.norm();
-      const double least = kLeastRoom + 2 * extra_offset_[p.particle];
+      const double least = kLeastPassage + 2 * extra_offset_[p.particle];
       if (room > least || rate < kLeastWidening) continue;
       const double depth = std::min((least - room) / rate, kDeepestWedge), offset = 2 * kDeepestWedge;
       const Vector3d out = widening / rate;

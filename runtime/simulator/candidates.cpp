@@ -11,7 +11,7 @@
 namespace garment::simulator {
 namespace {
 
-constexpr std::size_t kGrain = 128;  // queries of one chunk
+constexpr std::size_t kQueryGrain = 128;  // queries of one chunk
 
 template <class Part>
 std::vector<FloatBox> boxes_of(const ContactMesh& mesh, const std::vector<Vector3d>& x,
@@ -22,19 +22,6 @@ std::vector<FloatBox> boxes_of(const ContactMesh& mesh, const std::vector<Vector
       for (Index p : parts[i]) boxes[i].grow(mesh.at(x, p));
   });
   return boxes;
-}
-
-/// Runs query(i, pairs) for i in [0, n) and appends what all of them found, in the order of i.
-template <class Query>
-void collect(std::size_t n, std::vector<Pair>& out, const Query& query) {
-  std::vector<std::vector<Pair>> found((n + kGrain - 1) / kGrain);
-  parallel_for(n, kGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) query(i, found[begin / kGrain]);
-  });
-  std::size_t total = out.size();
-  for (const auto& f : found) total += f.size();
-  out.reserve(total);
-  for (const auto& f : found) out.insert(out.end(), f.begin(), f.end());
 }
 
 float below(double distance) { return static_cast<float>(std::max(0.0, distance * (1 - 1e-6) - 1e-12)); }
@@ -89,7 +76,6 @@ struct Search {
 void Candidates::rebuild(const ContactMesh& mesh, const std::vector<Vector3d>& x, double radius) {
   reference_ = x;
   radius_ = radius;
-  slack_ = std::max(0.0, 0.5 * (radius - mesh.largest_contact_distance));
   reach_ = 0.495 * radius;
   pairs_.clear();
   exempt_.clear();
@@ -102,46 +88,42 @@ void Candidates::rebuild(const ContactMesh& mesh, const std::vector<Vector3d>& x
   const auto n_particles = static_cast<std::size_t>(mesh.n_particles);
 
   if (mesh.options.self)
-    collect(n_particles, pairs_, [&](std::size_t v, std::vector<Pair>& out) {
+    parallel_collect(n_particles, kQueryGrain, pairs_, [&](std::size_t v, std::vector<Pair>& out) {
       const auto point = static_cast<Index>(v);
       triangle_tree_.query(search.around(point), [&](std::int32_t t) { search.vt(point, t, out); });
     });
   first_[1] = pairs_.size();
   if (mesh.options.self)
-    collect(edge_tree_.n_leaves(), pairs_, [&](std::size_t leaf, std::vector<Pair>& out) {
-      edge_tree_.query_pairs(leaf, radius, [&](std::int32_t e, std::int32_t f) {
-        search.ee(std::min(e, f), std::max(e, f), out);
-      });
-    });
+    parallel_collect(edge_tree_.n_leaves(), kQueryGrain, pairs_,
+                     [&](std::size_t leaf, std::vector<Pair>& out) {
+                       edge_tree_.query_pairs(leaf, radius, [&](std::int32_t e, std::int32_t f) {
+                         search.ee(std::min(e, f), std::max(e, f), out);
+                       });
+                     });
   first_[2] = pairs_.size();
-  collect(
-      mesh.body_triangle_tree.empty() ? 0 : n_particles, pairs_, [&](std::size_t v, std::vector<Pair>& out) {
-        const auto point = static_cast<Index>(v);
-        mesh.body_triangle_tree.query(
-            search.around(point), [&](std::int32_t t) { search.vt(point, t + mesh.n_cloth_triangles, out); });
-      });
+  parallel_collect(mesh.body_triangle_tree.empty() ? 0 : n_particles, kQueryGrain, pairs_,
+                   [&](std::size_t v, std::vector<Pair>& out) {
+                     const auto point = static_cast<Index>(v);
+                     mesh.body_triangle_tree.query(search.around(point), [&](std::int32_t t) {
+                       search.vt(point, t + mesh.n_cloth_triangles, out);
+                     });
+                   });
   first_[3] = pairs_.size();
-  collect(triangle_tree_.empty() ? 0 : mesh.body_point.size(), pairs_,
-          [&](std::size_t v, std::vector<Pair>& out) {
-            const Index point = mesh.n_particles + static_cast<Index>(v);
-            if (mesh.point_triangles[point].empty()) return;  // no part of the surface
-            triangle_tree_.query(search.around(point), [&](std::int32_t t) { search.vt(point, t, out); });
-          });
+  parallel_collect(triangle_tree_.empty() ? 0 : mesh.body_point.size(), kQueryGrain, pairs_,
+                   [&](std::size_t v, std::vector<Pair>& out) {
+                     const Index point = mesh.n_particles + static_cast<Index>(v);
+                     if (mesh.point_triangles[point].empty()) return;  // no part of the surface
+                     triangle_tree_.query(search.around(point),
+                                          [&](std::int32_t t) { search.vt(point, t, out); });
+                   });
   first_[4] = pairs_.size();
-  collect(mesh.body_edge_tree.empty() ? 0 : edge_boxes.size(), pairs_,
-          [&](std::size_t e, std::vector<Pair>& out) {
-            mesh.body_edge_tree.query(edge_boxes[e].inflated(radius), [&](std::int32_t f) {
-              search.ee(static_cast<Index>(e), f + mesh.n_cloth_edges, out);
-            });
-          });
+  parallel_collect(mesh.body_edge_tree.empty() ? 0 : edge_boxes.size(), kQueryGrain, pairs_,
+                   [&](std::size_t e, std::vector<Pair>& out) {
+                     mesh.body_edge_tree.query(edge_boxes[e].inflated(radius), [&](std::int32_t f) {
+                       search.ee(static_cast<Index>(e), f + mesh.n_cloth_edges, out);
+                     });
+                   });
   first_[5] = pairs_.size();
-}
-
-bool Candidates::valid(const std::vector<Vector3d>& x) const {
-  if (x.size() != reference_.size()) return false;
-  for (std::size_t i = 0; i < x.size(); ++i)
-    if (!((x[i] - reference_[i]).squaredNorm() <= slack_ * slack_)) return false;
-  return true;
 }
 
 bool Candidates::complete(const ContactMesh& mesh, const std::vector<Vector3d>& x, const std::vector<Vector3d>* dx,

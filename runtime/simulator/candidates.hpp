@@ -17,6 +17,8 @@ inline constexpr std::size_t kPairKinds = 5;
 inline bool is_vt(PairKind k) { return k != PairKind::cloth_ee && k != PairKind::cloth_e_body_e; }
 inline bool is_body(PairKind k) { return k > PairKind::cloth_ee; }
 
+inline constexpr std::size_t kPairGrain = 4096;  ///< pairs of one chunk of a parallel loop
+
 /// Two parts that do not share a point.
 struct Pair {
   Index a = -1;                ///< point (VT) or edge (EE); with bodies the cloth's edge
@@ -31,13 +33,10 @@ class Candidates {
   /// order depends on nothing but the input. Forgets what was exempt.
   void rebuild(const ContactMesh& mesh, const std::vector<Vector3d>& x, double radius);
 
-  /// True while no active contact can be missing: every particle within `slack()` of the reference.
-  bool valid(const std::vector<Vector3d>& x) const;
   /// True while cloth that the list leaves out cannot be nearer than `least` (m), at x nor, with `dx`, on the way from x to
   /// x + dx: where parts have come near each other they have moved by less than radius() - least against each other since the
-  /// reference. Unlike `valid` it bears cloth that moves on together, however far. Bodies are not looked at.
+  /// reference. It bears cloth that moves on together, however far. Bodies are not looked at.
   bool complete(const ContactMesh& mesh, const std::vector<Vector3d>& x, const std::vector<Vector3d>* dx, double least) const;
-  double slack() const { return slack_; }  ///< (radius - largest contact distance) / 2, m
   double reach() const { return reach_; }  ///< within it of the reference nothing meets what the list leaves out, m
   double radius() const { return radius_; }
 
@@ -57,7 +56,7 @@ class Candidates {
   std::array<std::size_t, kPairKinds + 1> first_{};
   std::vector<std::uint8_t> exempt_;  // empty: none
   std::vector<Vector3d> reference_;
-  double radius_ = 0, slack_ = 0, reach_ = 0;
+  double radius_ = 0, reach_ = 0;
   Bvh triangle_tree_, edge_tree_;  // of the cloth, at the reference
 };
 

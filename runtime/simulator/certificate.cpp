@@ -19,7 +19,7 @@ using model::Index;
 using model::Indices;
 using model::Vector3d;
 
-constexpr std::size_t kGrain = 256;  // triangles of one chunk
+constexpr std::size_t kTriangleGrain = 256;  // triangles of one chunk
 
 Triangle3 corners(const Indices<3>& t, const std::vector<Vector3d>& x) { return {x[t[0]], x[t[1]], x[t[2]]}; }
 
@@ -50,10 +50,10 @@ struct Found {
 };
 
 template <class Hit, class Test>
-void collect(std::size_t n, std::size_t& count, std::vector<Hit>& hits, const Test& test) {
-  std::vector<Found<Hit>> found((n + kGrain - 1) / kGrain);
-  parallel_for(n, kGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) test(static_cast<Index>(i), found[begin / kGrain]);
+void collect_hits(std::size_t n, std::size_t& count, std::vector<Hit>& hits, const Test& test) {
+  std::vector<Found<Hit>> found((n + kTriangleGrain - 1) / kTriangleGrain);
+  parallel_for(n, kTriangleGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) test(static_cast<Index>(i), found[begin / kTriangleGrain]);
   });
   for (const Found<Hit>& f : found) {
     count += f.count;
@@ -111,7 +111,7 @@ void test_body(int id, const body::TriangleMesh& mesh, const std::vector<Indices
                const std::vector<ClosedBox>& boxes, const std::vector<Vector3d>& x, Certificate& out) {
   const std::vector<ClosedBox> body_boxes = boxes_of(mesh.triangles, mesh.vertices);
   const BoxTree tree(body_boxes);
-  collect(triangles.size(), out.body_intersections, out.body_hits, [&](Index i, Found<BodyHit>& found) {
+  collect_hits(triangles.size(), out.body_intersections, out.body_hits, [&](Index i, Found<BodyHit>& found) {
     const Triangle3 cloth = corners(triangles[i], x);
     const std::size_t first = found.hits.size();
     tree.visit([&](const ClosedBox& b) { return b.meets(boxes[i]); },
@@ -126,7 +126,7 @@ void test_body(int id, const body::TriangleMesh& mesh, const std::vector<Indices
   ClosedBox bounds;
   for (const ClosedBox& b : body_boxes) bounds.grow(b);
   const WindingTest winding(mesh, tree, bounds);
-  collect(x.size(), out.inside_body, out.inside_hits, [&](Index i, Found<InsideHit>& found) {
+  collect_hits(x.size(), out.inside_body, out.inside_hits, [&](Index i, Found<InsideHit>& found) {
     if (winding.inside(x[i])) found.add({id, i});
   });
 }

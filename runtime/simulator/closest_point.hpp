@@ -6,6 +6,8 @@
 
 namespace garment::simulator {
 
+inline constexpr double kZeroGap = 1e-12;  ///< m: below this the gap between closest points has no direction
+
 using Eigen::Vector3d;
 
 /// The part of a triangle (or segment) on which a closest point lies.

@@ -7,8 +7,6 @@
 namespace garment::simulator {
 namespace {
 
-constexpr double kLeastStiffness = 1e-3;  // N/m
-constexpr double kSlipShare = 0.01;       // of the stiffness that is left along the slip, so that the matrix stays definite
 
 std::uint64_t key_of(const Pair& pair, bool is_vertex_triangle) {
   return (is_vertex_triangle ? 0 : std::uint64_t{1} << 63) | (static_cast<std::uint64_t>(pair.a) << 32) |
@@ -65,7 +63,7 @@ void ClothFriction::begin(const ContactMesh& mesh, const Candidates& candidates,
     t.normal = c.normal;
     t.gap = c.distance * c.normal;
     t.limit = mu * force;
-    t.stiffness = std::clamp(t.limit / give_, kLeastStiffness, most_stiffness_);
+    t.stiffness = std::clamp(t.limit / give_, kLeastAnchorStiffness, most_stiffness_);
     touches_.push_back(t);
   }
   std::sort(touches_.begin(), touches_.end(), [](const Touch& a, const Touch& b) { return a.key < b.key; });

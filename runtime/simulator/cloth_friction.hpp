@@ -10,6 +10,7 @@
 #include "runtime/simulator/block_matrix.hpp"
 #include "runtime/simulator/contact.hpp"
 #include "runtime/simulator/contact_stiffness.hpp"
+#include "runtime/simulator/friction.hpp"
 
 namespace garment::simulator {
 

@@ -7,18 +7,16 @@
 #include "runtime/base/parallel.hpp"
 #include "runtime/base/portable_math.hpp"
 #include "runtime/simulator/closest_point.hpp"
+#include "runtime/simulator/contact_stiffness.hpp"
 #include "runtime/simulator/relative_motion.hpp"
 
 namespace garment::simulator {
 namespace {
 
-constexpr std::size_t kGrain = 4096;     // pairs of one chunk
-constexpr double kZeroGap = 1e-12;       // m: below this the gap has no direction
-constexpr double kParallel = 0.01;       // sin^2 of the angle from which edges count as crossing
+constexpr double kCrossing = 0.01;       // sin^2 of the angle from which edges count as crossing
 constexpr double kNear = 0.5, kVeryNear = 0.15;  // shares of the contact distance between which edges come to count whole
 constexpr double kLeastShare = 1e-4;
 constexpr double kLeastDistance = 1e-9;  // m: the energy goes no nearer to its pole
-constexpr double kForeseenDepth = 5e-6;  // m: less costs no energy worth a second solution
 
 /// From 0 at 0 to 1 at `full` and beyond, without kinks.
 double rise(double x, double full) {
@@ -63,7 +61,7 @@ class Finder {
     const Vector3d across = u.cross(v);
     double share = shares_ ? (*shares_)[pair] : 0;
     if (share == 0) {
-      share = rise(across.squaredNorm() / std::max(u.squaredNorm() * v.squaredNorm(), 1e-300), kParallel);
+      share = rise(across.squaredNorm() / std::max(u.squaredNorm() * v.squaredNorm(), 1e-300), kCrossing);
       // What has come very near counts whole: a faint contact would let edges close up, and throw them apart as it grows.
       share = std::max(share, rise(kNear - gap.norm() / r, kNear - kVeryNear));
     }
@@ -115,9 +113,9 @@ void find(const ContactMesh& mesh, const Candidates& candidates, const std::vect
   for (std::size_t k = 0; k < kPairKinds; ++k) {
     const auto kind = static_cast<PairKind>(k);
     const std::size_t first = candidates.begin(kind), n = candidates.end(kind) - first;
-    std::vector<std::vector<Contact>> found((n + kGrain - 1) / kGrain);
-    parallel_for(n, kGrain, [&](std::size_t begin, std::size_t end) {
-      Finder finder(mesh, x, shares, dx, found[begin / kGrain]);
+    std::vector<std::vector<Contact>> found((n + kPairGrain - 1) / kPairGrain);
+    parallel_for(n, kPairGrain, [&](std::size_t begin, std::size_t end) {
+      Finder finder(mesh, x, shares, dx, found[begin / kPairGrain]);
       for (std::size_t i = first + begin; i < first + end; ++i) {
         const Pair& pair = pairs[i];
         const float motion =

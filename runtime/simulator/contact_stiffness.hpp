@@ -6,6 +6,8 @@
 
 namespace garment::simulator {
 
+inline constexpr double kForeseenDepth = 5e-6;  ///< m: contacts that a step would press by less cost no energy worth a second solution
+
 /// The second derivative of one contact's energy: stiffness * g gT with g = (w_0 n, ..., w_3 n). Kept apart
 /// from the matrix because contacts come and go. Particles with id -1 do not move (they belong to a body).
 struct ContactStiffness {

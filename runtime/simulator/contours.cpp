@@ -42,9 +42,9 @@ struct Bank {
   std::size_t size = 0;          // of the region
 };
 
-class Search {
+class ContourSearch {
  public:
-  Search(const ContactMesh& mesh, const std::vector<Vector3d>& x, const Tangle& tangle)
+  ContourSearch(const ContactMesh& mesh, const std::vector<Vector3d>& x, const Tangle& tangle)
       : mesh_(mesh), x_(x), tangle_(tangle) {}
 
   Contours run() {
@@ -172,7 +172,7 @@ class Search {
 }  // namespace
 
 Contours find_contours(const ContactMesh& mesh, const std::vector<Vector3d>& x, const Tangle& tangle) {
-  return Search(mesh, x, tangle).run();
+  return ContourSearch(mesh, x, tangle).run();
 }
 
 }  // namespace garment::simulator

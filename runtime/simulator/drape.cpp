@@ -11,6 +11,7 @@
 #include "runtime/simulator/certificate.hpp"
 #include "runtime/simulator/culprit.hpp"
 #include "runtime/simulator/relaxation.hpp"
+#include "runtime/simulator/rest.hpp"
 #include "runtime/simulator/solver_state.hpp"
 
 namespace garment::simulator {
@@ -29,9 +30,7 @@ constexpr double kClosingRate = 0.95;       // strain over the strain at the las
 constexpr double kNearRest = 1;             // residual from which the body is looked at
 constexpr int kRepairEvery = 10;            // steps between two looks at the body
 constexpr double kFirstTimeStep = 1.0 / 60; // s
-constexpr double kRestStep = 0.5e-3;        // m, largest Newton step of a garment at rest
 constexpr double kExactGive = 2e-7;         // m, of friction where the drape is to be exact
-constexpr double kRestTimeStep = 0.25;      // s, the step is judged with little regularisation only
 constexpr double kCalmTimeStep = 0.02;      // s, in which soft folds hardly move while threads come right
 constexpr double kCalmStep = 0.15e-3;       // m, largest way of a step from which the folds have arrived
 constexpr int kCalmSteps = 4;
@@ -42,7 +41,6 @@ constexpr int kMostRepairs = 12;            // times that a garment at rest may 
 constexpr double kExtraOffset = 1e-3;       // m, by which a particle of a pierced part is pushed farther, each time
 constexpr double kMostExtraOffset = 20e-3;  // m
 constexpr double kSlidingResidual = 0.05;   // rest where sliders act and the drape is to be exact: stiff, they hold or slip to the last bits
-constexpr double kSlidingStep = 1e-8;       // m
 constexpr int kIncrements = 10;             // of the weight, where the cloth's own friction acts
 
 bool all_finite(const Vectors& x) {

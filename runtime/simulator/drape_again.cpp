@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/simulator/drape_levels.hpp"
 #include "runtime/simulator/prolong.hpp"
 
 namespace garment::simulator {
@@ -13,7 +14,6 @@ using Vectors = std::vector<Vector3d>;
 
 constexpr double kMuch = 0.03;  // stretch or squeeze of a spring
 constexpr double kMany = 0.05;  // share of the springs, beyond that at rest
-constexpr int kMostCoarseSteps = 250;
 
 }  // namespace
 

@@ -8,7 +8,6 @@
 namespace garment::simulator {
 namespace {
 
-constexpr int kMostCoarseSteps = 250;  // a coarse garment that is not near rest by then hangs in its grid
 
 /// How far a drape from coarse to fine has come.
 struct Descent {

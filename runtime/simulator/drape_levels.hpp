@@ -6,6 +6,8 @@
 
 namespace garment::simulator {
 
+inline constexpr int kMostCoarseSteps = 250;  ///< a coarse garment that is not near rest by then hangs in its grid
+
 /// Drapes on each of the `coarse` models in turn (coarsest first), carries the result to the next finer grid by the flat
 /// pattern, and ends on `model`. `state` holds the result; without coarse models it is also the start. Steps are summed;
 /// residual, energy and certificate are those of the fine garment. Coarse levels that fail are passed over.

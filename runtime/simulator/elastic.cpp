@@ -9,7 +9,7 @@
 namespace garment::simulator {
 namespace {
 
-constexpr std::size_t kRowGrain = 2048;
+constexpr std::size_t kParticleGrain = 2048;
 constexpr double kLeastStretch = 1e-3;
 
 enum class Wanted { energy, force, hessian };
@@ -286,7 +286,7 @@ double run_chunks(const ElasticStencils& s, const Vector3d* x, Vector3d* force, 
 
 /// Every upper block becomes its constant part: twist and fits.
 void fill_constant(const ElasticStencils& s, BlockMatrix& hessian) {
-  parallel_for(s.n_particles, kRowGrain, [&](std::size_t begin, std::size_t end) {
+  parallel_for(s.n_particles, kParticleGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       for (Index k = s.upper_begin[i]; k < s.pattern->row_begin[i + 1]; ++k) {
         const float c = s.constant[k];

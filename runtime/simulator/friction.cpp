@@ -12,9 +12,7 @@ namespace {
 constexpr double kAtLimit = 0.99;   // share of the limit from which a spring counts as slipping
 constexpr double kFollowLoad = 0.5;        // share of a change of the load that the limit takes up in one step
 constexpr double kCancelled = 0.1;         // sums of normal forces below this share of their sizes have no direction
-constexpr int kSweeps = 40;                // over the directions that press on a particle
-constexpr double kLeastStiffness = 1e-3; // N/m
-constexpr double kSlipShare = 0.01; // of the stiffness that is left along the slip, so that the matrix stays definite
+constexpr int kBearingSweeps = 40;                // over the directions that press on a particle
 }  // namespace
 
 void BodyFriction::begin_step() {
@@ -47,7 +45,7 @@ void BodyFriction::freeze(const std::vector<Vector3d>& x) {
     t.normal = n > kCancelled * t.total ? Vector3d(t.sum / n) : t.pressing[0];
     t.bearable = t.weighted_mu;
     t.limit = t.anchored ? t.limit + kFollowLoad * (t.bearable - t.limit) : t.bearable;
-    t.stiffness = std::clamp(t.limit / give_, kLeastStiffness, most_stiffness_);
+    t.stiffness = std::clamp(t.limit / give_, kLeastAnchorStiffness, most_stiffness_);
     if (!t.anchored) t.anchor = x[i];
     t.anchored = true;
     active_.push_back(static_cast<std::uint32_t>(i));
@@ -86,7 +84,7 @@ void BodyFriction::add_force(const std::vector<Vector3d>& x, std::vector<Vector3
 /// each place bears along itself.
 Vector3d BodyFriction::left_by(const Touch& t, Vector3d f, std::size_t i, const Holds& holds) const {
   std::array<double, 8> borne{};
-  for (int sweep = 0; sweep < kSweeps; ++sweep)
+  for (int sweep = 0; sweep < kBearingSweeps; ++sweep)
     for (int k = 0; k < t.n_pressing; ++k) {
       Vector3d n = holds.filtered(i, t.pressing[k]);
       const double size = n.norm();

@@ -13,6 +13,9 @@
 
 namespace garment::simulator {
 
+inline constexpr double kLeastAnchorStiffness = 1e-3;  ///< N/m
+inline constexpr double kSlipShare = 0.01;  ///< of the stiffness that is left along the slip, so that the matrix stays definite
+
 class BodyFriction {
  public:
   /// A contact gives way by `give` (m) before it slips, so that its spring is as stiff as its load asks for, and no more: with

@@ -13,12 +13,12 @@ using Vectors = std::vector<Vector3d>;
 
 constexpr int kMostIterations = 30;
 constexpr int kMostSolves = 8;        // of a semi-implicit step
-constexpr int kHalvings = 8;
-constexpr double kLinearTolerance = 0.03;
+constexpr int kNewtonHalvings = 8;
+constexpr double kNewtonLinearTolerance = 0.03;
 constexpr double kManyFresh = 0.1;    // share of what touches that does so for the first time
 constexpr int kEulerSteps = 10;       // after one in which something came to touch: more will, and BDF2 would be tried in vain
-constexpr int kLinearIterations = 300;
-constexpr double kRounding = 1e-11;   // share of the energy that sums of it may be off
+constexpr int kNewtonLinearIterations = 300;
+constexpr double kNewtonRounding = 1e-11;  // share of the energy that sums of it may be off
 constexpr double kGoodEnough = 10;    // times the tolerance, where the iterations come to a stand
 
 double rms(const Vectors& f) {
@@ -77,10 +77,10 @@ void ImplicitSteps::guess(const MotionState& s, double h) {
 double ImplicitSteps::search(double before, double h) {
   trial_.resize(x_.size());
   double share = 1;
-  for (int k = 0; k <= kHalvings; ++k, share *= 0.5) {
+  for (int k = 0; k <= kNewtonHalvings; ++k, share *= 0.5) {
     for (std::size_t i = 0; i < x_.size(); ++i) trial_[i] = x_[i] + share * dx_[i];
     const double after = cloth_.energies(trial_, h).sum() + inertia(trial_);
-    if (after > before + kRounding * std::abs(before) + 1e-16 || !std::isfinite(after)) continue;
+    if (after > before + kNewtonRounding * std::abs(before) + 1e-16 || !std::isfinite(after)) continue;
     x_.swap(trial_);
     return share;
   }
@@ -108,7 +108,7 @@ bool ImplicitSteps::solve(const MotionState& s, double h, TimeStep& report) {
     if (!std::isfinite(report.residual)) return false;
     last = report.residual;
     for (std::size_t i = 0; i < x_.size(); ++i) cloth_.matrix().add_diagonal(i, m.mass[i] / (beta_ * beta_));
-    cloth_.solve(residual_, kLinearTolerance, kLinearIterations, x_, dx_);
+    cloth_.solve(residual_, kNewtonLinearTolerance, kNewtonLinearIterations, x_, dx_);
     const bool cut = cloth_.keep_apart(x_, dx_) > 0;
     const double share = search(energies_.sum() + inertia(x_), h);
     if (share == 0 || (is_single() && !cut && share == 1)) {

@@ -14,7 +14,6 @@ using model::Indices;
 
 constexpr double kNoWay = 1e-14;                       // of a strain, along which there is no secant
 
-enum : int { kEnergy, kForce, kHessian, kSlip, kStrains, kForesee };
 
 }  // namespace
 

@@ -53,6 +53,7 @@ class InnerFriction {
 
  private:
   enum List : std::size_t { kSprings, kCells, kMembranes, kBends, kFits };
+  enum Wanted : int { kEnergy, kForce, kHessian, kSlip, kStrains, kForesee };
   template <int kWanted>
   class Pass;
 

@@ -15,7 +15,6 @@ namespace {
 constexpr double kLeastKink = 1e-3;       // rad
 constexpr double kLeastTwist = 1e-5;      // m
 constexpr double kLeastCurvature = 0.1;   // 1/m
-enum : int { kBegin, kPotential, kForce, kHessian };
 
 }  // namespace
 

@@ -40,6 +40,7 @@ class KelvinDamping {
   };
   template <class Work>
   double run(const Work& pass) const;
+  enum Wanted : int { kBegin, kPotential, kForce, kHessian };
   template <int kWanted>
   class Pass;
 

@@ -6,7 +6,7 @@ namespace garment::simulator {
 namespace {
 
 constexpr int kFew = 3, kMany = 16;                   // positions that a list serves, before the next has more or less room
-constexpr double kLeastRoom = 0.1, kMostRoom = 0.4;   // spacings; beyond, a particle's own neighbours fill the list
+constexpr double kLeastListRoom = 0.1, kMostListRoom = 0.4;   // spacings; beyond, a particle's own neighbours fill the list
 
 }  // namespace
 
@@ -24,7 +24,7 @@ void KeptCandidates::renew(const std::vector<Vector3d>& x) {
 
 void KeptCandidates::rebuild(const std::vector<Vector3d>& x) {
   if (known_) room_ *= served_ < kFew ? 1.5 : served_ > kMany ? 0.75 : 1;
-  room_ = std::clamp(room_, kLeastRoom * spacing_, kMostRoom * spacing_);
+  room_ = std::clamp(room_, kLeastListRoom * spacing_, kMostListRoom * spacing_);
   served_ = 0;
   candidates_.rebuild(mesh_, x, mesh_.largest_contact_distance + room_);
   known_ = true;

@@ -8,7 +8,7 @@
 namespace garment::simulator {
 namespace {
 
-constexpr std::size_t kGrain = 2048;
+constexpr std::size_t kVectorGrain = 2048;
 
 }  // namespace
 
@@ -63,7 +63,7 @@ LinearResult LinearSolver::solve(const BlockMatrix& matrix, const std::vector<Co
     const double pAp = multiply(matrix, contacts);
     if (!(pAp > 0)) break;
     const auto alpha = static_cast<float>(rz / pAp);
-    parallel_for(n, kGrain, [&](std::size_t begin, std::size_t end) {
+    parallel_for(n, kVectorGrain, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         x_[i] += alpha * p_[i];
         r_[i] -= alpha * Ap_[i];
@@ -72,7 +72,7 @@ LinearResult LinearSolver::solve(const BlockMatrix& matrix, const std::vector<Co
     const double next = preconditioner_.apply(r_, z_);
     const auto beta = static_cast<float>(next / rz);
     rz = next;
-    parallel_for(n, kGrain, [&](std::size_t begin, std::size_t end) {
+    parallel_for(n, kVectorGrain, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) p_[i] = z_[i] + beta * p_[i];
     });
     ++result.iterations;

@@ -32,7 +32,6 @@ constexpr int kMostHalvings = 6;
 constexpr int kGrowAfter = 8;              // steps that go well, before one that was halved is doubled
 constexpr double kBodyStride = 0.5;        // of the distance at which bodies begin to push
 constexpr double kOpen = 0.5;              // strain of seams that are still open
-constexpr double kSame = 1e-9;             // s
 constexpr double kSameShare = 1e-3;        // of a step
 constexpr int kLookAgain = 2000;           // explicit steps between two looks at their bound
 
@@ -67,7 +66,7 @@ class Mover {
       tell_frame();
     }
     const double end = begun_ + settings_.duration;
-    while (s_.time < end - kSame) {
+    while (s_.time < end - kSameTime) {
       const bool stop_asked = settings_.interrupted && settings_.interrupted();
       settings_.checkpoints.look(*this, stop_asked);
       if (stop_asked) {
@@ -97,7 +96,7 @@ class Mover {
       a.demand(*count >= 0 && *count <= kMostCounted);
     }
     a.demand(step_ > 0 && halvings_ <= kMostHalvings && s_.time >= begun_ && (s_.x_before.empty() || s_.step_before > 0));
-    a.demand(s_.time <= begun_ + settings_.duration + kSame && frame_ >= s_.time - kSameShare * step_);
+    a.demand(s_.time <= begun_ + settings_.duration + kSameTime && frame_ >= s_.time - kSameShare * step_);
     simulator::keep(a, report_, model_.holders.size());
     a.keep(redundant_);
     implicit_.keep(a);

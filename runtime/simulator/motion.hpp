@@ -7,6 +7,8 @@
 
 namespace garment::simulator {
 
+inline constexpr double kSameTime = 1e-9;  ///< s: moments that are nearer to each other are one
+
 enum class MotionMethod {
   implicit,        ///< BDF2, implicit Euler where contacts change
   semi_implicit,   ///< implicit Euler, linearised once a step

@@ -15,9 +15,9 @@ using Eigen::Vector3d;
 using Vectors = std::vector<Vector3d>;
 
 constexpr double kFrictionGive = 1e-5;        // m, by which what sticks gives way: cloth in motion feels its springs
-constexpr double kHoldSpeed = 1;              // m/s, of what is not yet where its hold is
-constexpr double kLeastRoom = 2e-3;           // m, that a particle may go in one iteration however near a body is
-constexpr double kNear = 0.05;                // m round the cloth, where the speed of bodies counts
+constexpr double kLateHoldSpeed = 1;          // m/s, of what is not yet where its hold is
+constexpr double kLeastWay = 2e-3;            // m, that a particle may go in one iteration however near a body is
+constexpr double kNearCloth = 0.05;           // m round the cloth, where the speed of bodies counts
 
 /// The model for the elastic forces alone.
 model::Model without_ties(model::Model m) {
@@ -60,7 +60,7 @@ MovingCloth::MovingCloth(const model::Model& model, const std::vector<body::Body
   for (const body::Body& body : bodies)
     for (const auto& t : body.mesh.triangles)
       for (int k = 0; k < 3; ++k)
-        fine_bodies_ = fine_bodies_ && (body.mesh.vertices[t[k]] - body.mesh.vertices[t[(k + 1) % 3]]).norm() < kNear;
+        fine_bodies_ = fine_bodies_ && (body.mesh.vertices[t[k]] - body.mesh.vertices[t[(k + 1) % 3]]).norm() < kNearCloth;
 }
 
 void MovingCloth::go_to(double time) {
@@ -165,8 +165,8 @@ std::size_t MovingCloth::stop_at_bodies(const Vectors& x, Vectors& dx) {
   std::size_t changed = 0;
   for (std::size_t i = 0; !bodies_given_.empty() && i < dx.size(); ++i) {
     const double size = dx[i].norm();
-    if (size <= kLeastRoom) continue;
-    const double most = std::max(kLeastRoom, bodies_.room(i, x[i]));
+    if (size <= kLeastWay) continue;
+    const double most = std::max(kLeastWay, bodies_.room(i, x[i]));
     if (size <= most) continue;
     dx[i] *= most / size;
     ++changed;
@@ -201,7 +201,7 @@ void MovingCloth::held_motion(const Vectors& x, double h, Vectors& dx) const {
     }
     begun[i] = 1;
     const Vector3d late = off - with;
-    const double size = late.norm(), most = kHoldSpeed * h;
+    const double size = late.norm(), most = kLateHoldSpeed * h;
     const Vector3d way = with + (size > most ? Vector3d(late * (most / size)) : late);
     if (moved_.hold_kind[k] == model::HoldKind::plane) {
       const Vector3d n = moved_.hold_normal[k].normalized();
@@ -252,8 +252,8 @@ double MovingCloth::body_speed(const Vectors& x, double from, double to) const {
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
   }
-  low.array() -= kNear;
-  high.array() += kNear;
+  low.array() -= kNearCloth;
+  high.array() += kNearCloth;
   for (const model::Motion& m : start_.motions) {
     if (m.body < 0 || static_cast<std::size_t>(m.body) >= bodies_given_.size() || !(to > from)) continue;
     const model::Placement a = model::placement_at(m, from), b = model::placement_at(m, to);

@@ -38,6 +38,9 @@ class MovingCloth {
   /// Keeps references to model and bodies, which are where they are at time 0.
   MovingCloth(const model::Model& model, const std::vector<body::Body>& bodies, bool self_collision, double time,
               Acts acts = Acts::all);
+  /// A temporary list would be gone before the first step.
+  MovingCloth(const model::Model& model, const std::vector<body::Body>&& bodies, bool self_collision, double time,
+              Acts acts = Acts::all) = delete;
 
   const model::Model& model() const { return moved_; }
   const Holds& holds() const { return holds_; }

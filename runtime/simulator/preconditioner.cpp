@@ -19,7 +19,6 @@ using model::Index;
 constexpr std::size_t kAggregateSize = 20, kLargestSize = 64, kMostGroups = 1000;
 constexpr int kTranslatedSize = 16;  // without rotations
 constexpr std::size_t kGroupGrain = 32;
-constexpr std::size_t kRowGrain = 1024;
 constexpr double kShift = 1e-9;  // share of its trace that every coarse diagonal block gains
 
 /// The matrix with [d]x v = d x v.

@@ -11,6 +11,7 @@
 #include "runtime/simulator/culprit.hpp"
 #include "runtime/simulator/moved_bodies.hpp"
 #include "runtime/simulator/relaxation.hpp"
+#include "runtime/simulator/rest.hpp"
 #include "runtime/simulator/solver_state.hpp"
 
 namespace garment::simulator {
@@ -19,13 +20,9 @@ namespace {
 using Eigen::Vector3d;
 using Vectors = std::vector<Vector3d>;
 
-constexpr double kSame = 1e-9;  // s
-constexpr double kRestTimeStep = 0.25;   // s
-constexpr double kRestStep = 0.5e-3;     // m
 constexpr int kMostSteps = 600;          // of the relaxation, between two moments
 constexpr double kShareOfSpacing = 0.25;
 constexpr double kSnap = 2e-5;            // m, far less than cloth keeps from cloth
-constexpr double kSlidingStep = 1e-8;     // m, instead where cloth has friction of its own: loops are differences of forces
 constexpr double kNothing = 1e-4;        // of the residual at rest: no step is needed to judge it
 
 double mean_spring(const model::Model& model) {
@@ -112,7 +109,7 @@ class Follower {
     double most = end - state_.time;
     for (const model::Motion& motion : start_.motions)  // speed changes at poses
       for (const model::Pose& pose : motion.poses)
-        if (pose.time > state_.time + kSame) most = std::min(most, pose.time - state_.time);
+        if (pose.time > state_.time + kSameTime) most = std::min(most, pose.time - state_.time);
     const double look = std::min(most, 1e-3);
     double speed = 0;
     model::Model later = model::at_time(start_, state_.time + look);

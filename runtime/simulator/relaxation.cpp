@@ -343,7 +343,6 @@ StepReport Relaxation::step(Vectors& x) {
     break;
   }
   report.limited = cut.limited;
-  report.out_of_reach = cut.out_of_reach;
   if (!origin_.empty() && (!report.accepted || momentum_.rose(after))) {
     x.swap(origin_);
     origin_.clear();

@@ -42,9 +42,8 @@ struct StepReport {
   double energy = 0;         ///< J
   int linear_iterations = 0;
   std::size_t contacts = 0;
-  std::size_t limited = 0;       ///< particles whose motion a wall cut back
-  std::size_t out_of_reach = 0;  ///< particles stopped because the candidates did not reach farther
-  double scale = 1;              ///< share of the displacement that the line search took
+  std::size_t limited = 0;   ///< particles whose motion a wall cut back
+  double scale = 1;          ///< share of the displacement that the line search took
   bool accepted = true;
 };
 

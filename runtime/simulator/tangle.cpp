@@ -9,7 +9,7 @@
 namespace garment::simulator {
 namespace {
 
-constexpr std::size_t kGrain = 256;
+constexpr std::size_t kCutGrain = 256;  // of one chunk: parts to try, or particles
 
 struct HitTest {
   const ContactMesh& mesh;
@@ -32,15 +32,6 @@ FloatBox box_of(const ContactMesh& mesh, const std::vector<Vector3d>& x, const P
   return box;
 }
 
-template <class Query>
-void collect(Index n, std::vector<EdgeHit>& out, const Query& query) {
-  std::vector<std::vector<EdgeHit>> found((static_cast<std::size_t>(n) + kGrain - 1) / kGrain);
-  parallel_for(static_cast<std::size_t>(n), kGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) query(static_cast<Index>(i), found[begin / kGrain]);
-  });
-  for (const auto& f : found) out.insert(out.end(), f.begin(), f.end());
-}
-
 void find_hits(const ContactMesh& mesh, const std::vector<Vector3d>& x, std::vector<EdgeHit>& out) {
   const HitTest hit{mesh, x};
   if (mesh.options.self) {
@@ -48,18 +39,18 @@ void find_hits(const ContactMesh& mesh, const std::vector<Vector3d>& x, std::vec
     for (std::size_t t = 0; t < boxes.size(); ++t) boxes[t] = box_of(mesh, x, mesh.triangle[t]);
     Bvh tree = mesh.cloth_triangle_tree;
     tree.refit(boxes);
-    collect(mesh.n_cloth_edges, out, [&](Index e, std::vector<EdgeHit>& found) {
+    parallel_collect(static_cast<std::size_t>(mesh.n_cloth_edges), kCutGrain, out, [&](Index e, std::vector<EdgeHit>& found) {
       tree.query(box_of(mesh, x, mesh.edge[e]), [&](std::int32_t t) {
         if (hit(e, t)) found.push_back({e, t});
       });
     });
   }
-  collect(mesh.n_cloth_edges, out, [&](Index e, std::vector<EdgeHit>& found) {
+  parallel_collect(static_cast<std::size_t>(mesh.n_cloth_edges), kCutGrain, out, [&](Index e, std::vector<EdgeHit>& found) {
     mesh.body_triangle_tree.query(box_of(mesh, x, mesh.edge[e]), [&](std::int32_t t) {
       if (hit(e, t + mesh.n_cloth_triangles)) found.push_back({e, t + mesh.n_cloth_triangles});
     });
   });
-  collect(mesh.n_cloth_triangles, out, [&](Index t, std::vector<EdgeHit>& found) {
+  parallel_collect(static_cast<std::size_t>(mesh.n_cloth_triangles), kCutGrain, out, [&](Index t, std::vector<EdgeHit>& found) {
     mesh.body_edge_tree.query(box_of(mesh, x, mesh.triangle[t]), [&](std::int32_t e) {
       if (hit(e + mesh.n_cloth_edges, t)) found.push_back({e + mesh.n_cloth_edges, t});
     });
@@ -76,7 +67,7 @@ void find_inside(const std::vector<body::Body>& bodies, const std::vector<Vector
       low = low.cwiseMin(v);
       high = high.cwiseMax(v);
     }
-    parallel_for(x.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    parallel_for(x.size(), kCutGrain, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i)
         if ((x[i].array() >= low.array()).all() && (x[i].array() <= high.array()).all() && body.inside(x[i]))
           out.inside[i] = 1;

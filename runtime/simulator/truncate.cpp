@@ -12,14 +12,12 @@
 namespace garment::simulator {
 namespace {
 
-constexpr std::size_t kGrain = 4096;
-constexpr double kZeroGap = 1e-12;  // m: below this the gap has no direction
 constexpr double kLeastGap = 1e-8;  // m: gaps below do not close further; far above all rounding errors here
-constexpr double kLeastRoom = 0.1;  // share of a gap that each side has at least
+constexpr double kLeastShareOfGap = 0.1;  // share of a gap that each side has at least
 constexpr int kRounds = 8;          // after which a wall that leaves a particle behind stands
 constexpr int kMostRounds = 40;      // after which all do
 constexpr int kSearches = 4;        // for pairs that the cut ones may meet, before walls stand between all that may ever meet
-constexpr int kSweeps = 4;          // over the walls of a particle before its displacement shrinks as a whole
+constexpr int kWallSweeps = 4;          // over the walls of a particle before its displacement shrinks as a whole
 
 /// A plane between two parts, in its two sides. It moves along its normal n by `motion` during the step, and a particle i of
 /// the first side keeps n . d_i >= motion - room_i, one of the second n . d_i <= motion + room_i: then the sides stay apart.
@@ -67,7 +65,7 @@ void divide(Wall& wall, double fraction, const std::vector<Vector3d>& dx) {
   wall.motion = common_motion(wall, dx);
   const double first = std::max(0.0, wall.motion - go.first), second = std::max(0.0, go.second - wall.motion);
   if (first + second <= 0) return;
-  const double share = std::clamp(first / (first + second), kLeastRoom, 1 - kLeastRoom);  // of the gap, for the first side
+  const double share = std::clamp(first / (first + second), kLeastShareOfGap, 1 - kLeastShareOfGap);  // of the gap, for the first side
   const auto shift = static_cast<float>(fraction * (share - 0.5) * wall.gap * (1 - 1e-6));
   for (int k = 0; k < wall.n; ++k) wall.room[k] = std::max(0.0F, wall.room[k] + (k < wall.n_first ? shift : -shift));
 }
@@ -179,10 +177,10 @@ std::size_t add_walls(const ContactMesh& mesh, const Candidates& candidates, con
   for (std::size_t k = 0; k < kPairKinds; ++k) {
     const auto kind = static_cast<PairKind>(k);
     const std::size_t first = candidates.begin(kind), n = candidates.end(kind) - first, before = found.size();
-    found.resize(before + (n + kGrain - 1) / kGrain);
+    found.resize(before + (n + kPairGrain - 1) / kPairGrain);
     fresh.resize(found.size(), 0);
-    parallel_for(n, kGrain, [&](std::size_t begin, std::size_t end) {
-      const std::size_t chunk = before + begin / kGrain;
+    parallel_for(n, kPairGrain, [&](std::size_t begin, std::size_t end) {
+      const std::size_t chunk = before + begin / kPairGrain;
       WallFinder finder(mesh, x, dx, length, fraction, found[chunk]);
       for (std::size_t i = first + begin; i < first + end; ++i) {
         const Pair& pair = pairs[i];
@@ -286,7 +284,7 @@ class Passage {
   /// Takes the parts of d beyond the walls off, then shrinks what still goes too far. Never makes d longer.
   Vector3d hold_back(std::size_t i, Vector3d d) {
     bool all_kept = false;
-    for (int sweep = 0; sweep < kSweeps && !all_kept; ++sweep) {
+    for (int sweep = 0; sweep < kWallSweeps && !all_kept; ++sweep) {
       all_kept = true;
       for (Index s = sides_.begin[i]; s < sides_.begin[i + 1]; ++s) {
         const auto [wall, k] = sides_.side[s];

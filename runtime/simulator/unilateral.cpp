@@ -9,7 +9,7 @@ namespace {
 using Eigen::Vector3d;
 using Vectors = std::vector<Vector3d>;
 
-constexpr int kSweeps = 200;
+constexpr int kImpulseSweeps = 200;
 constexpr double kStill = 1e-12;      // m/s, change of a speed in a sweep that ends them
 constexpr double kBeta = 0.2;         // share of what is too near that is made good in a step
 constexpr double kFastestOut = 0.1;   // m/s, at which it is
@@ -68,7 +68,7 @@ double part(const model::Model& m, const Holds& holds, const std::vector<Touchin
   };
   std::vector<Vector3d> slip(contacts.size());
   for (std::size_t j = 0; j < contacts.size(); ++j) slip[j] = speed(contacts[j], v);
-  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+  for (int sweep = 0; sweep < kImpulseSweeps; ++sweep) {
     double change = 0;
     for (std::size_t j = 0; j < contacts.size(); ++j) {
       const Touching& c = contacts[j];

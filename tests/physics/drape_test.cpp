@@ -6,32 +6,18 @@
 #include "runtime/base/host.hpp"
 #include "runtime/body/body.hpp"
 #include "runtime/simulator/certificate.hpp"
-#include "runtime/simulator/drape.hpp"
 #include "runtime/simulator/elastic.hpp"
-#include "tests/support/grid_model.hpp"
+#include "tests/support/clamped_strip.hpp"
+#include "tests/support/draped.hpp"
 
 namespace {
 
 using namespace garment;
 using Eigen::Vector3d;
-
-constexpr double kGravity = 9.80665;
-
-struct Draped {
-  model::State state;
-  simulator::DrapeReport report;
-};
-
-Draped drape(const model::Model& m, const std::vector<body::Body>& bodies, simulator::Settle settle,
-             int max_steps = 4000) {
-  Draped d;
-  d.state.position = m.start;
-  simulator::DrapeSettings settings;
-  settings.settle = settle;
-  settings.max_steps = max_steps;
-  d.report = simulator::drape(m, bodies, d.state, settings);
-  return d;
-}
+using test::clamped_strip;
+using test::drape;
+using test::Draped;
+using test::kGravity;
 
 /// Elastic force and weight on each particle, N: what holds and bodies must bear.
 std::vector<Vector3d> loads(const model::Model& m, const std::vector<Vector3d>& x) {
@@ -51,25 +37,6 @@ body::Body body_of(const design::Body& declared) {
   body::BodyResult built = body::build_body(declared, system_host(), "");
   REQUIRE(built.body);
   return std::move(*built.body);
-}
-
-/// A strip of two rows along weft, clamped at its left end with the half bending length that a clamp needs.
-model::Model clamped_strip(test::SheetSpec& spec, int cells, double length, double gamma, double rigidity) {
-  spec.nx = cells + 2;  // one column more inside the clamp
-  spec.ny = 2;
-  spec.h = length / cells;
-  spec.bend = rigidity;
-  spec.density = gamma * rigidity / (kGravity * length * length * length);
-  spec.stretch = 2000 * rigidity / (spec.h * spec.h);
-  spec.shear = spec.stretch / 50;
-  spec.twist = 0.4 * rigidity;
-  spec.plane = test::SheetPlane::horizontal;
-  model::Model m = test::make_sheet(spec);
-  test::hold_column(m, spec, 0);
-  test::hold_column(m, spec, 1);
-  for (std::size_t k = 0; k < m.bend.size(); ++k)
-    if (m.bend[k][1] % spec.nx == 1) m.bend_lengths[k] = {0, spec.h};
-  return m;
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "runtime/base/portable_math.hpp"
 #include "runtime/simulator/constraint_steps.hpp"
 #include "tests/support/motion_cases.hpp"
 
@@ -10,9 +11,8 @@ namespace {
 using namespace garment;
 using namespace garment::test;
 using Eigen::Vector3d;
+using portable::kPi;
 using simulator::MotionMethod;
-
-constexpr double kGravity = 9.80665, kPi = 3.14159265358979323846;
 
 model::Model pendulum(double length, double angle) {
   model::Model m = bead(0.1, length);
@@ -45,7 +45,8 @@ TEST_CASE("constraints: rows that say the same twice give the same motion, and a
   model::Model twice = once;
   add_link(twice, 0.5);
   hold_point(twice, 0);
-  simulator::MovingCloth cloth(twice, {}, false, 0, simulator::MovingCloth::Acts::without_constraints);
+  const std::vector<body::Body> no_bodies;  // the cloth keeps a reference
+  simulator::MovingCloth cloth(twice, no_bodies, false, 0, simulator::MovingCloth::Acts::without_constraints);
   simulator::ConstraintSteps steps(cloth, twice);
   simulator::MotionState state;
   state.x = twice.start;

@@ -21,7 +21,7 @@ namespace {
 
 using Positions = std::vector<Vector3d>;
 
-model::Model build(const design::Garment& g, std::size_t findings = 0) { return test::build(g, findings); }
+model::Model built(const design::Garment& g, std::size_t findings = 0) { return test::build(g, findings); }
 
 /// The plane z = 0 folded along the line through `at` with direction `along`: what lies to its left turns to the back.
 Vector3d folded(const Vector3d& p, const Point2& at, const Point2& along, double angle) {
@@ -59,7 +59,7 @@ TEST_CASE("a fold at any slant costs nothing where it is folded as ironed") {
   for (const Case& c : {Case{{0.083, 0}, {0.083, 0.3}}, Case{{0.08, 0}, {0.08, 0.3}}, Case{{0.03, 0}, {0.17, 0.3}},
                         Case{{0, 0.05}, {0.2, 0.25}}, Case{{0, 0.213}, {0.2, 0.19}}}) {
     for (double angle : {0.5, 2.0}) {
-      const model::Model m = build(ironed(c.from, c.to, angle));
+      const model::Model m = built(ironed(c.from, c.to, angle));
       CHECK(mass_of(m) == Approx(0.2 * 0.2 * 0.3).epsilon(1e-12));
       const Point2 along = c.to - c.from;
       const double flat = energy(m, m.start), right = energy(m, fold_all(m.start, c.from, along, angle));
@@ -82,7 +82,7 @@ TEST_CASE("a slanted fold is as stiff as one along the threads") {
     design::Garment g = ironed(from, from + way, 1);
     g.fabrics[0].bending_rigidity = {1e-5, 1e-5};
     g.fabrics[0].twist_rigidity = 0.5e-5;
-    const model::Model m = build(g);
+    const model::Model m = built(g);
     stiffness.push_back(energy(m, m.start));
   }
   CHECK(stiffness[1] == Approx(stiffness[0]).epsilon(0.35));
@@ -97,7 +97,7 @@ TEST_CASE("a seam is folded at rest as its finish says") {
     g.seams = {test::seam("middle", {test::whole(g, 0, 1)}, {test::whole(g, 1, 3, true)})};
     g.seams[0].finish.fold_angle = 1.5;
     g.seams[0].finish.fold_to = to;
-    const model::Model m = build(g);
+    const model::Model m = built(g);
     CHECK_FALSE(m.fold_fit.empty());
     const double flat = energy(m, m.start);
     CHECK(energy(m, fold_all(m.start, {0.1, 0}, {0, 1}, sign * 1.5)) < 1e-9 * flat);
@@ -111,7 +111,7 @@ TEST_CASE("a turned seam knows face from back and holds what is folded over") {
   g.panels = {test::rectangle("a", 0.1, 0.2, 0.01), test::rectangle("b", 0.1, 0.2, 0.013, {0.1, 0})};
   g.seams = {test::seam("middle", {test::whole(g, 0, 1)}, {test::whole(g, 1, 3, true)})};
   g.seams[0].finish.turned = true;
-  const model::Model m = build(g);
+  const model::Model m = built(g);
   auto at = [&](double angle) { return energy(m, fold_all(m.start, {0.1, 0}, {0, 1}, angle)); };
   CHECK(at(3.05) < 1e-9 * at(0));
   CHECK(at(2.05) > 0.15 * at(0));  // one radian open
@@ -119,7 +119,7 @@ TEST_CASE("a turned seam knows face from back and holds what is folded over") {
 }
 
 TEST_CASE("the forces of folds are minus the gradient of their energy, and turn nothing by themselves") {
-  const model::Model m = build(ironed({0.03, 0}, {0.17, 0.3}, 2));
+  const model::Model m = built(ironed({0.03, 0}, {0.17, 0.3}, 2));
   simulator::ElasticModel elastic(m);
   Positions x = fold_all(m.start, {0.03, 0}, {0.14, 0.3}, 1.3), f;
   test::Random random(7);
@@ -149,7 +149,7 @@ TEST_CASE("a slit opens the cloth along its line and nowhere else") {
   design::Garment g = test::single(test::rectangle("cloth", 0.2, 0.3, 0.01));
   g.panels[0].lines = {test::edge("inside", {0.05, 0.1}, {0.13, 0.16}), test::edge("vent", {0.1, 0}, {0.104, 0.12})};
   g.panels[0].slits = {{"a", {}, 0}, {"b", {}, 1}};
-  const model::Model m = build(g);
+  const model::Model m = built(g);
   CHECK(mass_of(m) == Approx(0.2 * 0.2 * 0.3).epsilon(1e-12));
   // Sides of triangles that no other triangle has: the outline, and both lips of the slits.
   std::map<std::pair<model::Index, model::Index>, int> sides;
@@ -195,7 +195,7 @@ TEST_CASE("pleats fold without stretching, close on the edge and start without c
         pleat.ironed = ironed && kind != Kind::tuck;
         g.panels[0].pleats = {pleat};
         INFO("kind " << static_cast<int>(kind) << ", toward " << toward << ", ironed " << ironed);
-        const model::Model m = build(g);
+        const model::Model m = built(g);
         CHECK(mass_of(m) == Approx(0.2 * 0.6 * 0.3).epsilon(1e-12));
         double low = 1e300, high = -1e300;
         for (std::size_t v = 0; v < m.n_vertices(); ++v)
@@ -236,7 +236,7 @@ TEST_CASE("a pleat that is held at both ends folds once") {
   pleat.edge = "bottom";
   pleat.toward = -1;  // drawn the other way
   g.panels[0].pleats.push_back(pleat);
-  const model::Model m = build(g);
+  const model::Model m = built(g);
   double low = 1e300, high = -1e300, stretch = 0;
   for (const Vector3d& x : m.start) low = std::min(low, x.x()), high = std::max(high, x.x());
   CHECK(high - low == Approx(0.3 - 0.06).margin(1e-3));
@@ -257,7 +257,7 @@ TEST_CASE("slack, lapped and drawn-in seams are ties of the lengths that they st
     g.panels[1].placement = test::flat(0, 0.004);
     g.seams = {test::seam("middle", {test::whole(g, 0, 1)}, {test::whole(g, 1, 3, true)})};
     g.seams[0].finish = finish;
-    return build(g);
+    return built(g);
   };
   const std::size_t merged = garment_with({}).n_particles();
   design::SeamFinish slack;
@@ -301,7 +301,7 @@ TEST_CASE("a pad keeps cloth off the body by its profile") {
   pad.radius = 0.1;
   pad.thickness = {0.012, 0.008, 0.002};
   g.pads = {pad};
-  const model::Model m = build(g);
+  const model::Model m = built(g);
   REQUIRE_FALSE(m.pad_particle.empty());
   for (std::size_t k = 0; k < m.pad_particle.size(); ++k) {
     const Vector3d& at = m.start[m.pad_particle[k]];
@@ -316,7 +316,7 @@ TEST_CASE("a pad keeps cloth off the body by its profile") {
   region.parts[0].shape.size = 0.1;
   g.regions = {region};
   g.pads[0].region = 0;
-  const model::Model again = build(g);
+  const model::Model again = built(g);
   REQUIRE(again.pad_particle.size() == m.pad_particle.size());
   for (std::size_t k = 0; k < m.pad_particle.size(); ++k)
     CHECK(again.pad_thickness[k] == Approx(m.pad_thickness[k]).margin(4e-4));

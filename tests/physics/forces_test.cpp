@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "tests/support/clamped_strip.hpp"
 #include "tests/support/dense_newton.hpp"
 #include "tests/support/grid_model.hpp"
 
@@ -10,9 +11,9 @@ namespace {
 
 using namespace garment;
 using Eigen::Vector3d;
+using test::clamped_strip;
+using test::kGravity;
 using Positions = std::vector<Vector3d>;
-
-constexpr double kGravity = 9.80665;
 
 double top(const Positions& x) {
   double y = x[0].y();
@@ -23,25 +24,6 @@ double bottom(const Positions& x) {
   double y = x[0].y();
   for (const auto& p : x) y = std::min(y, p.y());
   return y;
-}
-
-/// A strip of two rows along weft, clamped at its left end with the half bending length that a clamp needs.
-model::Model clamped_strip(test::SheetSpec& spec, int cells, double length, double gamma, double rigidity) {
-  spec.nx = cells + 2;  // one column more inside the clamp
-  spec.ny = 2;
-  spec.h = length / cells;
-  spec.bend = rigidity;
-  spec.density = gamma * rigidity / (kGravity * length * length * length);
-  spec.stretch = 2000 * rigidity / (spec.h * spec.h);
-  spec.shear = spec.stretch / 50;
-  spec.twist = 0.4 * rigidity;
-  spec.plane = test::SheetPlane::horizontal;
-  model::Model m = test::make_sheet(spec);
-  test::hold_column(m, spec, 0);
-  test::hold_column(m, spec, 1);
-  for (std::size_t k = 0; k < m.bend.size(); ++k)
-    if (m.bend[k][1] % spec.nx == 1) m.bend_lengths[k] = {0, spec.h};
-  return m;
 }
 
 }  // namespace

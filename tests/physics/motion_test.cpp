@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "runtime/base/parallel.hpp"
+#include "runtime/base/portable_math.hpp"
 #include "runtime/model/dump.hpp"
 #include "runtime/model/motion.hpp"
 #include "runtime/simulator/certificate.hpp"
@@ -16,9 +17,8 @@ namespace {
 using namespace garment;
 using namespace garment::test;
 using Eigen::Vector3d;
+using portable::kPi;
 using simulator::MotionMethod;
-
-constexpr double kGravity = 9.80665, kPi = 3.14159265358979323846;
 
 Vector3d momentum(const model::Model& m, const Vectors& v) {
   Vector3d sum = Vector3d::Zero();

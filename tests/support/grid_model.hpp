@@ -4,6 +4,8 @@
 
 namespace garment::test {
 
+inline constexpr double kGravity = 9.80665;  ///< m/s^2, as in model.hpp
+
 enum class SheetPlane {
   vertical,    ///< weft along +x, warp along +y, face towards +z: hangs in the default gravity
   horizontal,  ///< weft along +x, warp along -z, face upwards (+y)

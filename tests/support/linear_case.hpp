@@ -29,6 +29,17 @@ class Noise {
   std::uint64_t seed_;
 };
 
+/// A sheet held at its upper corners.
+inline model::Model hanging(int nx, int ny, double stretch = 1000) {
+  SheetSpec spec;
+  spec.nx = nx;
+  spec.ny = ny;
+  spec.stretch = stretch;
+  model::Model m = make_sheet(spec);
+  hold_upper_corners(m, spec);
+  return m;
+}
+
 /// (elastic Hessian + M / time_step^2) x = force, at first at positions that are waved and uneven.
 struct LinearCase {
   LinearCase(model::Model m, double time_step, double unevenness = 0.3)

@@ -82,20 +82,38 @@ TEST_CASE("no near pair is missing and none is listed twice", "[collision]") {
   }
 }
 
-TEST_CASE("candidates hold while nobody moved past the slack", "[collision]") {
-  const model::Model m = test::sheet(5, 5, 0.01, 1e-3);
-  const ContactMesh mesh(m, {});
+TEST_CASE("candidates are complete until parts that the list leaves out may be near", "[collision]") {
+  const model::Model lower = test::sheet(5, 5, 0.01, 1e-3);
+  const double radius = 0.005, least = 0.001;
+  const auto sheets = [&](double gap) {
+    model::Model m = test::join(lower, lower);
+    for (std::size_t i = lower.n_particles(); i < m.n_particles(); ++i) m.start[i] += Vector3d(0.003, gap, 0.002);
+    return m;
+  };
+  const auto lowered = [&](std::vector<Vector3d> x, double by) {
+    for (std::size_t i = lower.n_particles(); i < x.size(); ++i) x[i].y() -= by;
+    return x;
+  };
+  const model::Model far = sheets(0.02), near = sheets(0.004);
+  const ContactMesh mesh(far, {});
   Candidates candidates;
-  candidates.rebuild(mesh, m.start, 0.005);
-  CHECK(candidates.slack() == Approx((0.005 - 0.001) / 2));
-  std::vector<Vector3d> x = m.start;
-  CHECK(candidates.valid(x));
-  x[7][1] += 0.0019;
-  CHECK(candidates.valid(x));
-  x[7][1] += 0.0002;
-  CHECK_FALSE(candidates.valid(x));
-  x[7][1] = std::nan("");
-  CHECK_FALSE(candidates.valid(x));
+  candidates.rebuild(mesh, far.start, radius);
+  CHECK(candidates.complete(mesh, far.start, nullptr, least));
+  CHECK(candidates.complete(mesh, lowered(far.start, 0.015), nullptr, least));
+  CHECK_FALSE(candidates.complete(mesh, lowered(far.start, 0.0195), nullptr, least));
+  std::vector<Vector3d> carried = far.start;
+  for (Vector3d& p : carried) p += Vector3d(0.5, -0.3, 0.1);
+  CHECK(candidates.complete(mesh, carried, nullptr, least));
+  carried.pop_back();
+  CHECK_FALSE(candidates.complete(mesh, carried, nullptr, least));
+  // On the way of a step.
+  const std::vector<Vector3d> none(far.n_particles(), Vector3d::Zero()), step = lowered(none, 0.0195);
+  CHECK(candidates.complete(mesh, far.start, &none, least));
+  CHECK_FALSE(candidates.complete(mesh, far.start, &step, least));
+  // What the list has may come as near as it will, if it moved by less than the list reaches beyond `least`.
+  candidates.rebuild(mesh, near.start, radius);
+  CHECK(candidates.complete(mesh, lowered(near.start, 0.0035), nullptr, least));
+  CHECK_FALSE(candidates.complete(mesh, lowered(near.start, 0.0045), nullptr, least));
 }
 
 TEST_CASE("the order of pairs does not depend on history or threads", "[collision]") {

@@ -16,17 +16,8 @@ using Eigen::VectorXd;
 using simulator::ContactStiffness;
 using simulator::LinearResult;
 using simulator::LinearSolver;
+using test::hanging;
 using test::LinearCase;
-
-model::Model hanging(int nx, int ny, double stretch = 1000) {
-  test::SheetSpec spec;
-  spec.nx = nx;
-  spec.ny = ny;
-  spec.stretch = stretch;
-  model::Model m = test::make_sheet(spec);
-  test::hold_upper_corners(m, spec);
-  return m;
-}
 
 /// Contacts between far particles of the sheet, with a body, and of edges.
 void add_contacts(LinearCase& c) {

@@ -19,18 +19,9 @@ using Eigen::VectorXd;
 using simulator::Aggregates;
 using simulator::BlockCholesky;
 using simulator::Preconditioner;
+using test::hanging;
 using test::LinearCase;
 using test::Noise;
-
-model::Model hanging(int nx, int ny, double stretch = 1000) {
-  test::SheetSpec spec;
-  spec.nx = nx;
-  spec.ny = ny;
-  spec.stretch = stretch;
-  model::Model m = test::make_sheet(spec);
-  test::hold_upper_corners(m, spec);
-  return m;
-}
 
 /// The preconditioner as a matrix, column by column.
 MatrixXd dense(Preconditioner& p, std::size_t n) {

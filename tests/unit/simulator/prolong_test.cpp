@@ -29,7 +29,7 @@ Vector3d affine(const Vector2d& uv, Index panel = 0) {
 }
 
 template <class Map>
-Positions placed(const Model& m, const Map& map) {
+Positions mapped(const Model& m, const Map& map) {
   Positions x(m.n_particles());
   for (std::size_t v = 0; v < m.n_vertices(); ++v)
     x[m.vertex_particle[v]] = map(m.vertex_uv[v], m.vertex_panel[v]);
@@ -82,12 +82,12 @@ double largest_difference(const Positions& a, const Positions& b) {
 
 TEST_CASE("linear fields are carried exactly, also beyond the coarse border") {
   const Model coarse = sheet(7, 6, 0.02);
-  const Positions on_coarse = placed(coarse, affine);
+  const Positions on_coarse = mapped(coarse, affine);
   for (const auto& [nx, ny, h] :
        {std::tuple{13, 11, 0.01}, std::tuple{26, 22, 0.005}, std::tuple{18, 15, 0.0075},
         std::tuple{14, 12, 0.0101}, std::tuple{3, 3, 0.05}}) {
     const Model fine = sheet(nx, ny, h);
-    CHECK(largest_difference(simulator::prolong(coarse, on_coarse, fine), placed(fine, affine)) < 1e-12);
+    CHECK(largest_difference(simulator::prolong(coarse, on_coarse, fine), mapped(fine, affine)) < 1e-12);
   }
 }
 
@@ -95,13 +95,13 @@ TEST_CASE("a finer grid of a bent sheet stays near the surface") {
   auto bent = [](const Vector2d& uv, Index) { return Vector3d(uv.x(), uv.y(), 4 * uv.x() * uv.x()); };
   const Model coarse = sheet(11, 11, 0.02), fine = sheet(41, 41, 0.005);
   // Linear interpolation over a cell: at most h^2 / 8 times the second derivative.
-  CHECK(largest_difference(simulator::prolong(coarse, placed(coarse, bent), fine), placed(fine, bent)) <
+  CHECK(largest_difference(simulator::prolong(coarse, mapped(coarse, bent), fine), mapped(fine, bent)) <
         0.02 * 0.02 / 8 * 8 + 1e-12);
 }
 
 TEST_CASE("the particles of the coarse grid keep their places") {
   const Model coarse = sheet(6, 7, 0.02);
-  Positions x = placed(coarse, affine);
+  Positions x = mapped(coarse, affine);
   for (std::size_t i = 0; i < x.size(); ++i) x[i] += 0.01 * Vector3d(i % 3, i % 5, i % 7);
   CHECK(largest_difference(simulator::prolong(coarse, x, coarse), x) < 1e-14);
 }
@@ -110,13 +110,13 @@ TEST_CASE("merged seams take the mean of their panels and stay closed") {
   const Vector2d shift(3.5, -2);
   const Model coarse = sewn_pair(6, 4, 0.02, shift), fine = sewn_pair(21, 16, 0.005, shift);
   auto map = [&](const Vector2d& uv, Index panel) { return affine(uv - panel * shift); };
-  CHECK(largest_difference(simulator::prolong(coarse, placed(coarse, map), fine), placed(fine, map)) < 1e-12);
+  CHECK(largest_difference(simulator::prolong(coarse, mapped(coarse, map), fine), mapped(fine, map)) < 1e-12);
   // A fold along the seam: each panel is linear, the seam is common to both.
   auto folded = [&](const Vector2d& uv, Index panel) {
     const Vector2d p = uv - panel * shift;
     return Vector3d(p.x(), panel ? 0.08 : p.y(), panel ? p.y() - 0.08 : 0);
   };
-  CHECK(largest_difference(simulator::prolong(coarse, placed(coarse, folded), fine), placed(fine, folded)) <
+  CHECK(largest_difference(simulator::prolong(coarse, mapped(coarse, folded), fine), mapped(fine, folded)) <
         1e-12);
 }
 
@@ -127,6 +127,6 @@ TEST_CASE("panels of other models do not mix") {
     const Vector2d p = uv - panel * same_place;
     return Vector3d(p.x(), 0.08 - std::abs(p.y() - 0.08), panel * (p.y() - 0.08));
   };
-  CHECK(largest_difference(simulator::prolong(coarse, placed(coarse, apart), fine), placed(fine, apart)) <
+  CHECK(largest_difference(simulator::prolong(coarse, mapped(coarse, apart), fine), mapped(fine, apart)) <
         1e-12);
 }
