@@ -142,8 +142,12 @@ void interpret_golden(GoldenOutcome& o, const std::string& path, grammar::Source
 bool has_drape(const std::string& script) {
   grammar::Sources sources;
   const grammar::SourceId id = sources.add("script", script);
-  for (const grammar::Statement& s : grammar::parse(sources, id, interpreter::vocabulary()).script.statements)
+  for (const grammar::Statement& s : grammar::parse(sources, id, interpreter::vocabulary()).script.statements) {
     if (s.keyword.text == "drape") return true;
+    if (s.keyword.text != "vary" || !s.body) continue;
+    for (const grammar::Statement& act : *s.body)
+      if (act.keyword.text == "drape") return true;
+  }
   return false;
 }
 
