@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "interpreter/cli/modelling.hpp"
 #include "interpreter/cli/project.hpp"
 #include "interpreter/language/construct_table.hpp"
 #include "interpreter/language/interpret.hpp"
@@ -33,11 +34,12 @@ bool has_error(const grammar::Diagnostics& diagnostics) {
 /// Drapes the model and answers the script's questions, in the order of the script.
 class GoldenRun {
  public:
-  GoldenRun(GoldenOutcome& outcome, interpreter::Interpretation& script, const model::Model& model, Host& host)
+  GoldenRun(GoldenOutcome& outcome, interpreter::Interpretation& script, model::Model& model, Host& host)
       : outcome_(outcome),
         script_(script),
         model_(model),
         host_(host),
+        holding_(script.garment),
         bodies_(script.bodies),
         recorder_(script, model, [](const std::string&, const std::string&) {}) {
     state_.position = model.start;
@@ -48,9 +50,11 @@ class GoldenRun {
     for (const interpreter::Act& act : script_.acts) {
       if (has_error(outcome_.diagnostics) || host_.interrupted()) return;
       if (const auto* drape = std::get_if<interpreter::DrapeAct>(&act.act)) this->drape(*drape, act.span);
+      if (const auto* release = std::get_if<interpreter::ReleaseAct>(&act.act))
+        add(outcome_.diagnostics, interpreter::to_diagnostics(session::let_go(*release, bodies_, holding_, model_), script_.origins));
       if (const auto* record = std::get_if<interpreter::RecordAct>(&act.act)) recorder_.add(*record);
       const bool asks = std::holds_alternative<interpreter::ExpectAct>(act.act) ||
-                        std::holds_alternative<interpreter::MeasureAct>(act.act);
+                        (std::holds_alternative<interpreter::MeasureAct>(act.act) && !measures_in_rounds(script_.acts));
       if (asks && !draped_)
         refuse("G0325", "stands before any `drape`, so there is nothing to ask", "write `drape until rest` above it", act.span);
       else if (asks)
@@ -94,8 +98,9 @@ class GoldenRun {
 
   GoldenOutcome& outcome_;
   interpreter::Interpretation& script_;
-  const model::Model& model_;
+  model::Model& model_;
   Host& host_;
+  design::Garment holding_;         // less what was released
   std::vector<body::Body> bodies_;  // at time 0
   session::Recorder recorder_;
   model::State state_;
@@ -103,25 +108,32 @@ class GoldenRun {
   bool draped_ = false;
 };
 
+/// A script, or with a `study` one round of it, of which only what goes wrong is told.
 void interpret_golden(GoldenOutcome& o, const std::string& path, grammar::SourceId id, GoldenStage stage,
-                      const GoldenLibraries& libraries, Host& host) {
+                      const GoldenLibraries& libraries, Host& host, const std::optional<interpreter::Study>& study = {}) {
   interpreter::InterpretOptions options;
   options.stdlib_dir = libraries.stdlib_dir;
   options.library_dirs = libraries.before;
   options.script_dir = folder_of(path);
-  options.warn_unused = true;
+  options.warn_unused = !study;
+  options.study = study;
   interpreter::Interpretation result = interpreter::interpret(o.sources, id, host, options);
-  o.diagnostics = result.diagnostics;
+  if (!study || !result.ok()) add(o.diagnostics, result.diagnostics);
   if (!result.ok()) return;
-  o.values = interpreter::values_by_line(result, o.sources);
+  if (!study) o.values = interpreter::values_by_line(result, o.sources);
   modeller::ModelResult built;
   if (stage == GoldenStage::check) built.findings = modeller::find_unmodelled(result.garment, Severity::warning);
   if (built.findings.empty()) built = modeller::build_model(result.garment, result.bodies);
-  add(o.diagnostics, interpreter::to_diagnostics(built.findings, result.origins));
+  if (!study || !built.model) add(o.diagnostics, interpreter::to_diagnostics(built.findings, result.origins));
   if (built.model && stage == GoldenStage::model) o.text = model::summary_text(*built.model);
   if (built.model && stage == GoldenStage::run && !has_error(o.diagnostics)) {
+    if (study) o.text += fmt::format("{} = {}\n", study->target, study->value);
     for (const interpreter::MeasureValue& m : result.measures) o.text += fmt::format("measure {}: {}\n", m.name, m.text);
     GoldenRun(o, result, *built.model, host).perform();
+    for (const interpreter::Act& act : study ? std::vector<interpreter::Act>{} : result.acts)
+      if (const auto* vary = std::get_if<interpreter::VaryAct>(&act.act))
+        for (const std::string& value : vary->values)
+          interpret_golden(o, path, id, stage, libraries, host, interpreter::Study{vary->ordinal, vary->target, value});
   }
 }
 
@@ -130,8 +142,12 @@ void interpret_golden(GoldenOutcome& o, const std::string& path, grammar::Source
 bool has_drape(const std::string& script) {
   grammar::Sources sources;
   const grammar::SourceId id = sources.add("script", script);
-  for (const grammar::Statement& s : grammar::parse(sources, id, interpreter::vocabulary()).script.statements)
+  for (const grammar::Statement& s : grammar::parse(sources, id, interpreter::vocabulary()).script.statements) {
     if (s.keyword.text == "drape") return true;
+    if (s.keyword.text != "vary" || !s.body) continue;
+    for (const grammar::Statement& act : *s.body)
+      if (act.keyword.text == "drape") return true;
+  }
   return false;
 }
 

@@ -21,9 +21,9 @@ std::optional<model::Model> build_model(Project& project, Terminal& terminal) {
   return std::move(built.model);
 }
 
-bool measures_in_rounds(const Project& project) {
+bool measures_in_rounds(const std::vector<interpreter::Act>& acts) {
   bool varies = false;
-  for (const interpreter::Act& act : project.result.acts) {
+  for (const interpreter::Act& act : acts) {
     if (std::holds_alternative<interpreter::DrapeAct>(act.act)) return false;
     varies = varies || std::holds_alternative<interpreter::VaryAct>(act.act);
   }
@@ -38,7 +38,7 @@ bool check_acts(const Project& project, Terminal& terminal) {
     d.labels.push_back({span, ""});
     told.push_back(d);
   };
-  const bool in_rounds = measures_in_rounds(project);
+  const bool in_rounds = measures_in_rounds(project.result.acts);
   bool draped = false, right = true;
   for (const interpreter::Act& act : project.result.acts) {
     const auto* drape = std::get_if<interpreter::DrapeAct>(&act.act);

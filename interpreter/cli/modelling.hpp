@@ -19,6 +19,6 @@ ExitCode check_model(Project& project, bool whole, Terminal& terminal);
 bool check_acts(const Project& project, Terminal& terminal);
 
 /// The script drapes nothing itself and has studies: its measures belong to their rounds.
-bool measures_in_rounds(const Project& project);
+bool measures_in_rounds(const std::vector<interpreter::Act>& acts);
 
 }  // namespace garment::cli

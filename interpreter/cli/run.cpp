@@ -174,23 +174,11 @@ struct Run {
     return false;
   }
 
-  /// The holds of the garment without what was released; all else of the model stays.
   void release(const interpreter::ReleaseAct& act) {
-    if (act.pin >= 0) holding.pins[static_cast<std::size_t>(act.pin)].panel = -1;
-    if (act.clamp >= 0) {
-      holding.scene.clamps[static_cast<std::size_t>(act.clamp)].parts.clear();
-      holding.scene.clamps[static_cast<std::size_t>(act.clamp)].region = -1;
-    }
-    design::Garment left = holding;
-    std::erase_if(left.pins, [](const design::Pin& pin) { return pin.panel < 0; });
-    std::erase_if(left.scene.clamps, [](const design::Clamp& c) { return c.region < 0 && c.parts.empty(); });
-    modeller::ModelResult built = modeller::build_model(left, bodies);
-    if (!built.model || built.model->n_particles() != model.n_particles()) {
-      show(interpreter::to_diagnostics(built.findings, project.result.origins), project.sources, terminal);
-      code = kDiagnostics;
-      return;
-    }
-    modeller::take_holds(*built.model, model);
+    const Findings findings = session::let_go(act, bodies, holding, model);
+    if (findings.empty()) return;
+    show(interpreter::to_diagnostics(findings, project.result.origins), project.sources, terminal);
+    code = kDiagnostics;
   }
 
   void expect(const interpreter::Act& act) {

@@ -2,6 +2,8 @@
 
 #include "interpreter/session/models.hpp"
 #include "runtime/model/motion.hpp"
+#include "runtime/modeller/holds.hpp"
+#include "runtime/modeller/modeller.hpp"
 #include "runtime/simulator/drape_levels.hpp"
 #include "runtime/simulator/motion.hpp"
 #include "runtime/simulator/moved_bodies.hpp"
@@ -59,6 +61,21 @@ simulator::DrapeReport perform_drape(const interpreter::DrapeAct& act, const Dra
   settings.settle = act.settle;
   settings.hysteresis = scene.script.garment.scene.slides_to_rest();
   return to_rest(scene, settings, state);
+}
+
+Findings let_go(const interpreter::ReleaseAct& act, const std::vector<body::Body>& bodies, design::Garment& holding, model::Model& model) {
+  if (act.pin >= 0) holding.pins[static_cast<std::size_t>(act.pin)].panel = -1;
+  if (act.clamp >= 0) {
+    holding.scene.clamps[static_cast<std::size_t>(act.clamp)].parts.clear();
+    holding.scene.clamps[static_cast<std::size_t>(act.clamp)].region = -1;
+  }
+  design::Garment left = holding;
+  std::erase_if(left.pins, [](const design::Pin& pin) { return pin.panel < 0; });
+  std::erase_if(left.scene.clamps, [](const design::Clamp& c) { return c.region < 0 && c.parts.empty(); });
+  modeller::ModelResult built = modeller::build_model(left, bodies);
+  if (!built.model || built.model->n_particles() != model.n_particles()) return std::move(built.findings);
+  modeller::take_holds(*built.model, model);
+  return {};
 }
 
 grammar::Diagnostics told_by(const simulator::DrapeReport& report, const interpreter::Interpretation& script, grammar::Span act) {

@@ -22,6 +22,10 @@ struct DrapeScene {
 /// Drapes `state`. To rest, moving clamps and bodies stand where they are at the state's time.
 simulator::DrapeReport perform_drape(const interpreter::DrapeAct& act, const DrapeScene& scene, model::State& state);
 
+/// Lets a pin or clamp go: `holding` is the garment less what was released so far, whose holds the model gets; all else of it stays.
+/// Returns why it could not, with both as they were but for what no longer holds.
+Findings let_go(const interpreter::ReleaseAct& act, const std::vector<body::Body>& bodies, design::Garment& holding, model::Model& model);
+
 /// What the drape found, as diagnostics; what has no place of its own stands at the act's.
 grammar::Diagnostics told_by(const simulator::DrapeReport& report, const interpreter::Interpretation& script, grammar::Span act);
 

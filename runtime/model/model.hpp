@@ -152,7 +152,7 @@ struct Model {
   std::vector<Indices<2>> membrane_law;          ///< warp law, weft law
   std::vector<double> membrane_shear;            ///< G
   std::vector<Index> membrane_panel;
-  // --- bending along grid lines: E = p hbar/2 B (psi(theta)/hbar)^2, psi(x) = 2 tan(x/2), hbar = (h- + h+)/2
+  // --- bending along grid lines: E = p hbar/2 B (theta/hbar)^2, theta the turn, hbar = (h- + h+)/2
   std::vector<Indices<3>> bend;                  ///< particle ids (before, at, after)
   std::vector<Vector2d> bend_lengths;            ///< (h-, h+), m
   std::vector<double> bend_width;                ///< p, m

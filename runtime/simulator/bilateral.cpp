@@ -49,12 +49,13 @@ void add_tie(const model::Model& m, std::size_t t, bool rod, const Vectors& x, c
   row.value = size - length;
   row.bend = (rate.squaredNorm() - rate.dot(n) * rate.dot(n)) / std::max(size, 1e-12);
   row.pulls_only = !rod;
+  if (!rod && m.tie_stiffness[t] > 0) row.give = 1 / m.tie_stiffness[t];
   rows.push_back(row);
 }
 
-/// J W JT lambda = b over the rows in `use`.
+/// (J W JT + give / tau^2) lambda = b over the rows in `use`.
 Eigen::VectorXd solve(const model::Model& m, const std::vector<ConstraintRow>& rows, const std::vector<std::size_t>& use,
-                      const Eigen::VectorXd& b, std::size_t& redundant) {
+                      const Eigen::VectorXd& b, double tau, std::size_t& redundant) {
   struct Entry {
     Index particle;
     int row, slot;
@@ -75,6 +76,7 @@ Eigen::VectorXd solve(const model::Model& m, const std::vector<ConstraintRow>& r
   const auto n = static_cast<Eigen::Index>(use.size());
   Eigen::SparseMatrix<double> A(n, n);
   A.setFromTriplets(triplets.begin(), triplets.end());
+  for (Eigen::Index r = 0; r < n; ++r) A.coeffRef(r, r) += rows[use[static_cast<std::size_t>(r)]].give / (tau * tau);
   const Eigen::VectorXd diagonal = A.diagonal();
   for (Eigen::Index r = 0; r < n; ++r) A.coeffRef(r, r) += kRegularised * diagonal[r];
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(A);
@@ -139,7 +141,7 @@ Reactive reactive_forces(const model::Model& m, const std::vector<ConstraintRow>
       }
       b[static_cast<Eigen::Index>(r)] = -(pushed + row.bend + 2 / tau * rate + row.value / (tau * tau));
     }
-    lambda = solve(m, rows, use, b, out.redundant);
+    lambda = solve(m, rows, use, b, tau, out.redundant);
     std::vector<std::size_t> kept;
     for (std::size_t r = 0; r < use.size(); ++r)
       if (!rows[use[r]].pulls_only || lambda[static_cast<Eigen::Index>(r)] <= 0) kept.push_back(use[r]);

@@ -16,6 +16,7 @@ struct ConstraintRow {
   double value = 0;                           ///< C, m
   double drift = 0;                           ///< C_t, m/s: by what moves it
   double bend = 0;                            ///< Jdot v, m/s^2
+  double give = 0;                            ///< of a thread by its force, m/N: C is its length less that
   int hold = -1;                              ///< index into holds, or -1
   bool pulls_only = false;                    ///< a thread: its force may only shorten it
 };

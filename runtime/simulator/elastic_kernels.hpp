@@ -62,34 +62,25 @@ struct TrellisAngle {
   }
 };
 
-/// Bending at the middle of three particles, E = k/2 psi^2, psi = 2 tan(theta/2), going on linearly in theta
-/// beyond 120 degrees, where psi = 2 sqrt(3) and dpsi/dtheta = 4.
+/// arcsin(q)/q for 0 <= q <= 1: half of a turn over half of the kink |t_out - t_in| that it makes.
+inline double turn_over_kink(double q) { return q > 1e-6 ? arc_sine(q) / q : 1; }
+
+/// Bending at the middle of three particles, E = k/2 theta^2: what an arc of that turn has, of any length. Held against it,
+/// 2 tan(theta/2) for theta is 31 % too stiff where cloth is bent to 1.5 /cm on a grid of 5 mm.
 ///
 ///     before ---e_in---> at ---e_out---> after,   theta = angle between e_in and e_out
 ///
-/// With u = 1 - cos(theta) = |t_out - t_in|^2 / 2 there is no trigonometry below 120 degrees: psi^2 = 4 u /
-/// (2 - u).
+/// With the kink d = t_out - t_in and u = 1 - cos(theta) = |d|^2 / 2: |d| = 2 sin(theta/2), dE/du = k theta / sin(theta).
 struct BendTerm {
   double energy;
   Vector3d grad_in, grad_out;  ///< dE/d(e_in), dE/d(e_out), N
-  double stiffness;            ///< k (dpsi/dtheta)^2, N m
+  double stiffness;            ///< dE/du, which bounds the curvature along the kink and across it; at most 16 k, N m
   BendTerm(double k, const Direction& in, const Direction& out) {
     const Vector3d d = out.unit - in.unit;
-    const double u = 0.5 * d.squaredNorm();
-    double slope;  // dE/du
-    if (u <= 1.5) {
-      const double r = 1 / (2 - u);
-      energy = 2 * k * u * r;
-      slope = 4 * k * r * r;
-      stiffness = slope;  // dpsi/dtheta = 1 + psi^2/4 = 2 r
-    } else {
-      const double m = (out.unit + in.unit).norm();
-      constexpr double kTwoRootThree = 3.46410161513775458705, kThirdOfPi = 1.04719755119659774615;
-      const double psi = kTwoRootThree + 4 * (kThirdOfPi - 2 * arc_sine(m / 2));  // theta - 2 pi/3
-      energy = 0.5 * k * psi * psi;
-      slope = 4 * k * psi / std::max(m * std::sqrt(0.5 * u), 1e-9);  // du = sin(theta) dtheta
-      stiffness = 16 * k;
-    }
+    const double u = 0.5 * d.squaredNorm(), q = std::min(std::sqrt(0.5 * u), 1.0), ratio = turn_over_kink(q);
+    const double theta = 2 * q * ratio, slope = k * ratio / std::max(std::sqrt((1 - q) * (1 + q)), 1e-9);
+    energy = 0.5 * k * theta * theta;
+    stiffness = std::min(slope, 16 * k);
     grad_out = (d - u * out.unit) * (slope * out.inverse_length);
     grad_in = (d + u * in.unit) * (-slope * in.inverse_length);
   }

@@ -56,7 +56,7 @@ struct MembraneStencil {
 struct BendStencil {
   Indices<3> particle;
   std::array<BlockPlace, 3> place;  ///< 01 02 12
-  double stiffness;                 ///< p B / hbar, N m: E = stiffness/2 psi^2
+  double stiffness;                 ///< p B / hbar, N m: E = stiffness/2 theta^2
   Index crease = -1;                ///< into creases; -1: flat at rest
 };
 

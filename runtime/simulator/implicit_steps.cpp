@@ -18,8 +18,15 @@ constexpr double kNewtonLinearTolerance = 0.03;
 constexpr double kManyFresh = 0.1;    // share of what touches that does so for the first time
 constexpr int kEulerSteps = 10;       // after one in which something came to touch: more will, and BDF2 would be tried in vain
 constexpr int kNewtonLinearIterations = 300;
+constexpr double kDrift = 0.02;       // of the tolerance, that all of the equations together may be off: what slides has little to drive it
 constexpr double kNewtonRounding = 1e-11;  // share of the energy that sums of it may be off
 constexpr double kGoodEnough = 10;    // times the tolerance, where the iterations come to a stand
+
+double mean_size(const Vectors& f) {
+  Vector3d sum = Vector3d::Zero();
+  for (const Vector3d& p : f) sum += p;
+  return sum.norm() / static_cast<double>(std::max<std::size_t>(1, f.size()));
+}
 
 double rms(const Vectors& f) {
   double sum = 0;
@@ -104,7 +111,8 @@ bool ImplicitSteps::solve(const MotionState& s, double h, TimeStep& report) {
   const int most = is_single() ? kMostSolves : kMostIterations;
   for (report.iterations = 0; report.iterations < most; ++report.iterations) {
     look(s, h, true, report);
-    if (report.residual <= tolerance_) return true;
+    const bool drifts = !is_single() && mean_size(residual_) > kDrift * tolerance_ * cloth_.rms_weight();
+    if (report.residual <= tolerance_ && !drifts) return true;
     if (!std::isfinite(report.residual)) return false;
     last = report.residual;
     for (std::size_t i = 0; i < x_.size(); ++i) cloth_.matrix().add_diagonal(i, m.mass[i] / (beta_ * beta_));

@@ -14,6 +14,14 @@ using model::Indices;
 
 constexpr double kNoWay = 1e-14;                       // of a strain, along which there is no secant
 
+constexpr double kMostKink2 = 0.75;                    // sin^2(theta/2) at 120 degrees
+
+/// d/du of g = arcsin(q)/q, u = 2 q^2; by its series where that cancels.
+double slope_of_turn(double q2, double g) {
+  if (q2 < 1e-4) return 1.0 / 12 + q2 * (3.0 / 40 + q2 * 15 / 224);
+  return (1 / std::sqrt(1 - q2) - g) / (4 * q2);
+}
+
 
 }  // namespace
 
@@ -172,10 +180,12 @@ class InnerFriction::Pass {
     const Direction out(at(s.particle[2]) - middle);
     if (s.crease >= 0) in.unit = f_.stencils_.creases[static_cast<std::size_t>(s.crease)].turn * in.unit;
     const Vector3d d = out.unit - in.unit;
-    const double u = std::min(0.5 * d.squaredNorm(), 1.5), g = std::sqrt(2 / (2 - u)), across = d.dot(normal(s.particle[1]));
+    // As in BendTerm; beyond 120 degrees by the kink.
+    const double q2 = std::min(0.25 * d.squaredNorm(), kMostKink2), q = std::sqrt(q2), g = turn_over_kink(q);
+    const double across = d.dot(normal(s.particle[1]));
     const Slip slip = slide(kBends, k, s.stiffness, ConstantYield{s.yield}, g * across);
     if constexpr (kPush || kMatrix) {
-      const double by_u = u < 1.5 ? across * g / (2 * (2 - u)) : 0;
+      const double by_u = q2 < kMostKink2 ? across * slope_of_turn(q2, g) : 0;
       const Vector3d by_d = g * normal(s.particle[1]) + by_u * d;
       const Vector3d to_out = (by_d - by_d.dot(out.unit) * out.unit) * out.inverse_length;
       Vector3d to_in = (by_d - by_d.dot(in.unit) * in.unit) * -in.inverse_length;

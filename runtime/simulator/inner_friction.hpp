@@ -16,7 +16,7 @@ namespace garment::simulator {
 /// has a gradient; L is what the elastic law is lowered by, that the cloth loaded for the first time follows its record:
 ///   springs, cut cells  s the strain; yield f N(s), L = f Psi(s)
 ///   trellis corners     s = phi; yield HG + m (|phi| - 0.5 deg), L = m phi^2 / 2
-///   bends               s = d . n sqrt(2 / (2 - |d|^2/2)), d the kink, n the cloth's normal: 2 tan(theta/2) with a sign; yield HB
+///   bends               s = d . n theta / |d|, d the kink, n the cloth's normal: the turn with a sign; yield HB
 ///   fits                s = n . (K way); yield HB
 /// n is the normal of the fan of triangles round the particle, and E's gradient has its part: none of it changes in rigid
 /// motions, so forces and torques sum to zero. Fits that are folded at rest have no sliders.
@@ -79,7 +79,7 @@ class InnerFriction {
   };
   struct Bend {
     model::Indices<3> particle;
-    double stiffness, yield;  // by psi, N m
+    double stiffness, yield;  // by the turn, N m
     model::Index crease;      // into the elastic creases, or -1
     std::array<std::int32_t, 3> place;
   };
