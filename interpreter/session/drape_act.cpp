@@ -65,15 +65,11 @@ simulator::DrapeReport perform_drape(const interpreter::DrapeAct& act, const Dra
 
 Findings let_go(const interpreter::ReleaseAct& act, const std::vector<body::Body>& bodies, design::Garment& holding, model::Model& model) {
   if (act.pin >= 0) holding.pins[static_cast<std::size_t>(act.pin)].panel = -1;
-  if (act.clamp >= 0) {
-    holding.scene.clamps[static_cast<std::size_t>(act.clamp)].parts.clear();
-    holding.scene.clamps[static_cast<std::size_t>(act.clamp)].region = -1;
-  }
+  if (act.clamp >= 0) holding.scene.clamps[static_cast<std::size_t>(act.clamp)].released = true;
   design::Garment left = holding;
   std::erase_if(left.pins, [](const design::Pin& pin) { return pin.panel < 0; });
-  std::erase_if(left.scene.clamps, [](const design::Clamp& c) { return c.region < 0 && c.parts.empty(); });
   modeller::ModelResult built = modeller::build_model(left, bodies);
-  if (!built.model || built.model->n_particles() != model.n_particles()) return std::move(built.findings);
+  if (!built.model) return std::move(built.findings);
   modeller::take_holds(*built.model, model);
   return {};
 }

@@ -32,6 +32,7 @@ struct Clamp {
   int region = -1;              ///< index into Garment::regions
   std::vector<EdgePart> parts;  ///< where there is no region
   int path = -1;                ///< index into Scene::paths
+  bool released = false;        ///< holds nothing any more; the grid still goes along its line
 };
 
 /// A constant force on a point of a panel, in space.

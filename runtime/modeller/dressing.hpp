@@ -60,8 +60,9 @@ bool crosses(const model::Model& model, const std::vector<bool>& left_out);
 
 /// Takes apart cloth that crosses cloth in `model.start`: seams that pull panels together leave folds beside them that
 /// cut one another. There, and in a growing neighbourhood, the cloth is smoothed like a membrane, which ends embedded
-/// where the body stands between what must not meet, and kept off the bodies. Cloth that crosses nothing stays as it
-/// is. Panels that are `left_out` [n_panels] are not looked at and move only where others hold them. Ends with the fewest
+/// where the body stands between what must not meet, and kept off the bodies. Cloth that crosses nothing and
+/// touches no body stays as it is. Panels that are `left_out` [n_panels] are not looked at; they move where others hold them and where
+/// bodies push. Ends with the fewest
 /// pairs of triangles that were seen to meet, and returns their number.
 std::size_t take_apart(const std::vector<body::Body>& bodies, const std::vector<bool>& left_out, model::Model& model);
 

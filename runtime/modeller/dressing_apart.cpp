@@ -144,6 +144,11 @@ std::size_t take_apart(const std::vector<body::Body>& bodies, const std::vector<
   std::vector<Clearing> clearings;
   for (const body::Body& b : bodies)
     if (!b.mesh.triangles.empty()) clearings.emplace_back(b, model);
+  // Places that nothing could free before, in the folds of a collar say, must not keep all else from coming apart.
+  const std::vector<Vector3d> as_placed = model.start;
+  std::size_t least_pierced = 0;
+  for (Clearing& clearing : clearings) least_pierced += clearing.go();
+  model.start = as_placed;
   std::size_t fewest = crossings.count;
   std::vector<Vector3d> best = model.start;
   for (int round = 0, fruitless = 0; fewest > 0 && round < kMostRounds && fruitless < kMostFruitless; ++round) {
@@ -153,7 +158,7 @@ std::size_t take_apart(const std::vector<body::Body>& bodies, const std::vector<
     for (Clearing& clearing : clearings) pierced += clearing.go();
     crossings = surface.crossings(model.start);
     ++fruitless;
-    if (pierced > 0 || crossings.count >= fewest) continue;
+    if (pierced > least_pierced || crossings.count >= fewest) continue;
     fewest = crossings.count;
     best = model.start;
     fruitless = 0;

@@ -139,7 +139,7 @@ class Jaws {
   }
 
   /// Between the jaws nothing bends: of the cloth that a joint stands for, from the middle of one segment to that of the next,
-  /// only what is outside does. h- + h+ of the energy p B psi^2 / (h- + h+) is twice that. Without this a strip would be longer by
+  /// only what is outside does. h- + h+ of the energy p B theta^2 / (h- + h+) is twice that. Without this a strip would be longer by
   /// up to a spacing, and its rigidity come out too small by three times as much of its length.
   void stiffen(model::Model& model) const {
     for (std::size_t k = 0; k < model.bend.size(); ++k) {
@@ -272,7 +272,7 @@ void add_holds(const design::Garment& garment, const std::vector<body::Body>& bo
     }
   }
   for (const design::Clamp& clamp : garment.scene.clamps)
-    add_clamp(clamp, garment, outlines, borders, panels, holds, model);
+    if (!clamp.released) add_clamp(clamp, garment, outlines, borders, panels, holds, model);
   for (const design::Pin& pin : garment.pins) add_pin(pin, panels, holds, model, findings);
   holds.write_motions(model);
 }

@@ -7,7 +7,6 @@
 namespace garment::simulator {
 namespace {
 
-
 std::uint64_t key_of(const Pair& pair, bool is_vertex_triangle) {
   return (is_vertex_triangle ? 0 : std::uint64_t{1} << 63) | (static_cast<std::uint64_t>(pair.a) << 32) |
          static_cast<std::uint64_t>(pair.b);

@@ -206,17 +206,18 @@ class Way {
       }
       bool rest = rests(step, target);
       if (!rest) calm(step, target);
+      if (rest) d_.x = before_;  // the state that was judged
       if (rest && !certify) return DrapeStatus::at_rest;
       bool look = certify && step.residual < kNearRest && steps_in_stage_ % kRepairEvery == 0;
       if (!rest && !look) continue;
-      if (rest) d_.x = before_;  // the state that was judged
       Tangle tangle = find_tangle(all_, d_.bodies, d_.x);
       if (rest && tangle.empty()) return DrapeStatus::at_rest;
       if (rest && ++repairs_ > kMostRepairs) return DrapeStatus::tangled;
       push_pierced(all_, tangle, relaxation_);
+      if (!tangle.empty()) relaxation_.stop();
       if (d_.settings.self_collision) relaxation_.set_tangle(find_tangle(relaxation_.mesh(), no_bodies(), d_.x));
       if (rest) {
-        steps_in_stage_ = 0;
+        steps_in_stage_ = calming_ = pause_ = 0;
         relaxation_.forget_motion();
       }
     }

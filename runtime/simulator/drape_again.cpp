@@ -52,7 +52,7 @@ DrapeReport drape_again(const std::vector<model::Model>& coarse, const model::Mo
       stopped.steps = steps;
       return stopped;
     }
-    if (report.status == DrapeStatus::diverged || report.self_intersections > 0) continue;
+    if (report.status == DrapeStatus::diverged || (settings.self_collision && report.self_intersections > 0)) continue;
     const Vectors after = prolong(level, on_level.position, model);
     for (std::size_t i = 0; i < state.position.size(); ++i) state.position[i] += after[i] - before[i];
   }

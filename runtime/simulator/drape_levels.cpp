@@ -8,7 +8,6 @@
 namespace garment::simulator {
 namespace {
 
-
 /// How far a drape from coarse to fine has come.
 struct Descent {
   std::size_t level = 0;  // of the coarse models, then the fine one

@@ -46,9 +46,10 @@ class ElasticModel {
   /// The same, and a positive semidefinite approximation of the energy's Hessian in N/m; overwrites the
   /// elastic part of `hessian` and clears what was added on its diagonal. `hessian` must come from
   /// make_matrix().
-  ///   springs, cut cells, ties   N' n nT + max(N, 0) / l (I - n nT): exact in tension, no transversal part in
-  ///   compression shear                Gauss-Newton, G grad(phi) grad(phi)T bends Gauss-Newton on the
-  ///   difference of the edge directions, isotropic twist, fits          exact (quadratic energies; of folded fits without the part that comes of their turning)
+  ///   springs, cut cells, ties   N' n nT + max(N, 0) / l (I - n nT): exact in tension, no transversal part in compression
+  ///   shear                      Gauss-Newton, G grad(phi) grad(phi)T
+  ///   bends                      Gauss-Newton on the difference of the edge directions, isotropic
+  ///   twist, fits                exact (quadratic energies; of folded fits without the part that comes of their turning)
   double energy_force_hessian(const std::vector<Eigen::Vector3d>& x, std::vector<Eigen::Vector3d>& force,
                               BlockMatrix& hessian) const;
 

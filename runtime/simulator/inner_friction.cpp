@@ -22,7 +22,6 @@ double slope_of_turn(double q2, double g) {
   return (1 / std::sqrt(1 - q2) - g) / (4 * q2);
 }
 
-
 }  // namespace
 
 /// Works through all stencils. `kWanted` says what of: the potential, forces, the matrix; or the return mapping, whose sum is

@@ -37,7 +37,10 @@ LinearResult LinearSolver::solve(const BlockMatrix& matrix, const std::vector<Co
                                  std::vector<Eigen::Vector3d>& x,
                                  const std::vector<Eigen::Vector3d>* positions, bool begun) {
   const std::size_t n = b.size();
-  preconditioner_.factor(matrix, positions, contacts);
+  if (begun)
+    preconditioner_.factor_diagonal(matrix);
+  else
+    preconditioner_.factor(matrix, positions, contacts);
   r_.resize(n);
   for (std::size_t i = 0; i < n; ++i) r_[i] = holds_.filtered(i, b[i]).cast<float>();
   x_.assign(n, Eigen::Vector3f::Zero());

@@ -23,7 +23,8 @@ class LinearSolver {
 
   /// Solves (matrix + contacts) x = b. The diagonal blocks of the contacts must already be added to `matrix`,
   /// their off-diagonal part is applied from `contacts`. Stops at `tolerance` or `max_iterations`. x starts
-  /// at zero, or from what it holds (`begun`; the tolerance is still that from zero). `positions` says where the particles are; without it the solver takes two to five times the
+  /// at zero, or, right after a solve of nearly the same system (`begun`), from that solution, with its coarse space
+  /// (the tolerance is still that from zero). `positions` says where the particles are; without it the solver takes two to five times the
   /// iterations. The same bits for any number of threads.
   LinearResult solve(const BlockMatrix& matrix, const std::vector<ContactStiffness>& contacts,
                      const std::vector<Eigen::Vector3d>& b, double tolerance, int max_iterations,

@@ -195,15 +195,19 @@ void Preconditioner::add_contact(const ContactStiffness& c) {
       coarse_[coarse_slot(groups[k], groups[l])].noalias() += (c.stiffness * u[k]) * u[l].transpose();
 }
 
+void Preconditioner::factor_diagonal(const BlockMatrix& matrix) {
+  parallel_for(matrix.n_rows(), kRowGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      inverse_diagonal_[i] = matrix.diagonal(i).inverse().cast<float>();
+  });
+}
+
 void Preconditioner::factor(const BlockMatrix& matrix, const std::vector<Vector3d>* positions,
                             const std::vector<ContactStiffness>& contacts) {
   if (!grouped_ || (positions && !rounded_)) group(positions);
   place(positions);
   connect_touching(contacts);
-  parallel_for(matrix.n_rows(), kRowGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      inverse_diagonal_[i] = matrix.diagonal(i).inverse().cast<float>();
-  });
+  factor_diagonal(matrix);
   parallel_for(groups_.size(), kGroupGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t a = begin; a < end; ++a) gather_coarse_row(matrix, a);
   });

@@ -32,6 +32,8 @@ class Preconditioner {
   /// positions, groups the particles.
   void factor(const BlockMatrix& matrix, const std::vector<Eigen::Vector3d>* positions = nullptr,
               const std::vector<ContactStiffness>& contacts = {});
+  /// The same for a matrix that differs from the last one in few places, as by contacts that are foreseen: the coarse part stays.
+  void factor_diagonal(const BlockMatrix& matrix);
 
   /// z = M^-1 r, both [n], filtered by the holds; r must be filtered. Returns r . z, accumulated in double.
   /// The same bits for any number of threads.

@@ -55,7 +55,8 @@ Relaxation::Relaxation(const model::Model& model, const std::vector<body::Body>&
       friction_(model.n_particles(), settings.friction_give, bodies_.stiffness()),
       cloth_friction_(model, Rubbing::stated, settings.friction_give, settings.contact_stiffness),
       loads_(model),
-      spacing_(mean_edge(model)) {
+      spacing_(mean_edge(model)),
+      rubbed_(friction_) {
   inner_.set_active(settings.hysteresis);
   turns_.assign(model.n_particles(), 0);
   damping_.assign(model.n_particles(), 0);
@@ -218,7 +219,7 @@ void Relaxation::solve_step(const Vectors& x, StepReport& report) {
   for (int round = 0;; ++round) {
     for (int revised = 0;; ++revised) {
       report.linear_iterations +=
-          linear_.solve(matrix_, stiffness_, force_, kLinearTolerance, kLinearIterations, dx_, &x, round + revised > 0).iterations;
+          linear_.solve(matrix_, stiffness_, force_, kLinearTolerance, kLinearIterations, dx_, &x, round > 0 && inner_.idle()).iterations;
       if (inner_.idle() || revised == InnerFriction::kRevisions) break;
       inner_.foresee(x, dx_, matrix_);
     }
@@ -309,7 +310,8 @@ void Relaxation::damp(const Vectors& before, const Vectors& after) {
 
 void Relaxation::coast(Vectors& x) {
   origin_.clear();
-  if (!tangle_.empty() || !inner_.idle()) return momentum_.forget();  // the energy says nothing, or the way counts
+  // In a tangle the energy says nothing; where cloth rubs on cloth, or within itself, the way counts.
+  if (!tangle_.empty() || !inner_.idle() || !cloth_friction_.idle()) return momentum_.forget();
   double share = momentum_.share();
   if (share <= 0) return;
   const Vectors& way = momentum_.way();
@@ -319,6 +321,7 @@ void Relaxation::coast(Vectors& x) {
   refresh_candidates(x);
   truncate(mesh_, candidates_.list(), x, dx_);
   origin_ = x;
+  rubbed_ = friction_;
   for (std::size_t i = 0; i < x.size(); ++i) x[i] += dx_[i];
 }
 
@@ -345,6 +348,7 @@ StepReport Relaxation::step(Vectors& x) {
   report.limited = cut.limited;
   if (!origin_.empty() && (!report.accepted || momentum_.rose(after))) {
     x.swap(origin_);
+    friction_ = rubbed_;
     origin_.clear();
     momentum_.forget();
     return report;

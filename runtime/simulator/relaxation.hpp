@@ -147,6 +147,7 @@ class Relaxation {
   std::vector<Eigen::Vector3d> last_motion_;
   Momentum momentum_;
   std::vector<Eigen::Vector3d> origin_;  // where x was before it coasted; empty: it did not
+  BodyFriction rubbed_;                  // friction there
   std::vector<Eigen::Vector3d> force_, wish_, net_, dx_, whole_, trial_, untangle_;
 };
 
