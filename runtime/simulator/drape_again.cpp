@@ -13,7 +13,7 @@ using model::Vector3d;
 using Vectors = std::vector<Vector3d>;
 
 constexpr double kMuch = 0.03;  // stretch or squeeze of a spring
-constexpr double kMany = 0.05;  // share of the springs, beyond that at rest
+constexpr double kMany = 0.30;  // share of the springs, beyond that at rest
 
 }  // namespace
 
