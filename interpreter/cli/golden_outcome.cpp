@@ -25,9 +25,10 @@ void add(grammar::Diagnostics& all, grammar::Diagnostics more) {
   for (grammar::Diagnostic& d : more) all.push_back(std::move(d));
 }
 
-bool has_error(const grammar::Diagnostics& diagnostics) {
-  for (const grammar::Diagnostic& d : diagnostics)
-    if (d.severity == Severity::error) return true;
+/// Is any of those from `first` on an error?
+bool has_error(const grammar::Diagnostics& diagnostics, std::size_t first) {
+  for (std::size_t k = first; k < diagnostics.size(); ++k)
+    if (diagnostics[k].severity == Severity::error) return true;
   return false;
 }
 
@@ -36,6 +37,7 @@ class GoldenRun {
  public:
   GoldenRun(GoldenOutcome& outcome, interpreter::Interpretation& script, model::Model& model, Host& host)
       : outcome_(outcome),
+        first_(outcome.diagnostics.size()),
         script_(script),
         model_(model),
         host_(host),
@@ -48,7 +50,7 @@ class GoldenRun {
 
   void perform() {
     for (const interpreter::Act& act : script_.acts) {
-      if (has_error(outcome_.diagnostics) || host_.interrupted()) return;
+      if (has_error(outcome_.diagnostics, first_) || host_.interrupted()) return;
       if (const auto* drape = std::get_if<interpreter::DrapeAct>(&act.act)) this->drape(*drape, act.span);
       if (const auto* release = std::get_if<interpreter::ReleaseAct>(&act.act))
         add(outcome_.diagnostics, interpreter::to_diagnostics(session::let_go(*release, bodies_, holding_, model_), script_.origins));
@@ -97,6 +99,7 @@ class GoldenRun {
   }
 
   GoldenOutcome& outcome_;
+  std::size_t first_;  // of the diagnostics, that is this round's
   interpreter::Interpretation& script_;
   model::Model& model_;
   Host& host_;
@@ -118,6 +121,7 @@ void interpret_golden(GoldenOutcome& o, const std::string& path, grammar::Source
   options.warn_unused = !study;
   options.study = study;
   interpreter::Interpretation result = interpreter::interpret(o.sources, id, host, options);
+  const std::size_t first = o.diagnostics.size();  // a round that fails keeps no other from its drape
   if (!study || !result.ok()) add(o.diagnostics, result.diagnostics);
   if (!result.ok()) return;
   if (!study) o.values = interpreter::values_by_line(result, o.sources);
@@ -126,14 +130,16 @@ void interpret_golden(GoldenOutcome& o, const std::string& path, grammar::Source
   if (built.findings.empty()) built = modeller::build_model(result.garment, result.bodies);
   if (!study || !built.model) add(o.diagnostics, interpreter::to_diagnostics(built.findings, result.origins));
   if (built.model && stage == GoldenStage::model) o.text = model::summary_text(*built.model);
-  if (built.model && stage == GoldenStage::run && !has_error(o.diagnostics)) {
+  if (built.model && stage == GoldenStage::run && !has_error(o.diagnostics, first)) {
     if (study) o.text += fmt::format("{} = {}\n", study->target, study->value);
     for (const interpreter::MeasureValue& m : result.measures) o.text += fmt::format("measure {}: {}\n", m.name, m.text);
     GoldenRun(o, result, *built.model, host).perform();
     for (const interpreter::Act& act : study ? std::vector<interpreter::Act>{} : result.acts)
       if (const auto* vary = std::get_if<interpreter::VaryAct>(&act.act))
-        for (const std::string& value : vary->values)
+        for (const std::string& value : vary->values) {
+          if (host.interrupted()) return;
           interpret_golden(o, path, id, stage, libraries, host, interpreter::Study{vary->ordinal, vary->target, value});
+        }
   }
 }
 
