@@ -90,23 +90,19 @@ std::string along(const RangeValue& r) {
   return "go from " + format_quantity(r.from.value, r.from.dimension) + " to " + format_quantity(r.to.value, r.to.dimension);
 }
 
-Value run_slope(Call& call) {
+/// What `of` reads from the curve over a range of its first values; in units that `combine` makes of those of both values.
+template <class Combine, class Of>
+Value over_range(Call& call, const Combine& combine, const Of& of) {
   const Asked a = asked(call);
   const RangeValue r = range_of(call, a);
-  const Dimension dimension = quotient(a.y, a.x).value_or(kNumber);
+  const Dimension dimension = combine(a.y, a.x).value_or(kNumber);
   if (a.points == nullptr) return number_value(1, dimension);
-  if (const auto s = slope_of(*a.points, r.from.value, r.to.value)) return number_value(*s, dimension);
+  if (const auto value = of(*a.points, r.from.value, r.to.value)) return number_value(*value, dimension);
   fail_off_curve(call, a, along(r));
 }
 
-Value run_work(Call& call) {
-  const Asked a = asked(call);
-  const RangeValue r = range_of(call, a);
-  const Dimension dimension = product(a.y, a.x).value_or(kNumber);
-  if (a.points == nullptr) return number_value(1, dimension);
-  if (const auto w = work_of(*a.points, r.from.value, r.to.value)) return number_value(*w, dimension);
-  fail_off_curve(call, a, along(r));
-}
+Value run_slope(Call& call) { return over_range(call, quotient, slope_of); }
+Value run_work(Call& call) { return over_range(call, product, work_of); }
 
 Value run_reading(Call& call) {
   const Asked a = asked(call);

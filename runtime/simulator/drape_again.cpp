@@ -38,12 +38,8 @@ DrapeReport drape_again(const std::vector<model::Model>& coarse, const model::Mo
     model::State on_level;
     on_level.position = prolong(model, state.position, level);
     const Vectors before = prolong(level, on_level.position, model);
-    DrapeSettings rough = settings;
-    rough.settle = Settle::preview;
+    DrapeSettings rough = on_coarse_grid(settings, settings.max_steps);
     rough.near_rest = true;
-    rough.certify = false;
-    rough.hysteresis = false;
-    rough.max_steps = std::min(settings.max_steps, kMostCoarseSteps);
     const DrapeReport report = drape(level, bodies, on_level, rough);
     steps += report.steps;
     if (report.status == DrapeStatus::interrupted) {  // the fine garment as it lies is consistent
@@ -52,7 +48,7 @@ DrapeReport drape_again(const std::vector<model::Model>& coarse, const model::Mo
       stopped.steps = steps;
       return stopped;
     }
-    if (report.status == DrapeStatus::diverged || (settings.self_collision && report.self_intersections > 0)) continue;
+    if (!found_folds(report, settings)) continue;
     const Vectors after = prolong(level, on_level.position, model);
     for (std::size_t i = 0; i < state.position.size(); ++i) state.position[i] += after[i] - before[i];
   }

@@ -8,6 +8,8 @@
 namespace garment::simulator {
 namespace {
 
+constexpr int kMostCoarseSteps = 250;  // a coarse garment that is not near rest by then hangs in its grid
+
 /// How far a drape from coarse to fine has come.
 struct Descent {
   std::size_t level = 0;  // of the coarse models, then the fine one
@@ -42,6 +44,19 @@ Checkpoints on_level(const Checkpoints& all, Descent& descent, const std::vector
 
 }  // namespace
 
+DrapeSettings on_coarse_grid(const DrapeSettings& settings, int steps_left) {
+  DrapeSettings rough = settings;
+  rough.settle = Settle::preview;
+  rough.certify = false;
+  rough.hysteresis = false;
+  rough.max_steps = std::min(std::max(1, steps_left), kMostCoarseSteps);
+  return rough;
+}
+
+bool found_folds(const DrapeReport& coarse, const DrapeSettings& settings) {
+  return coarse.status != DrapeStatus::diverged && (coarse.self_intersections == 0 || !settings.self_collision);
+}
+
 DrapeReport drape_levels(const std::vector<model::Model>& coarse, const model::Model& model,
                          const std::vector<body::Body>& bodies, model::State& state, const DrapeSettings& settings) {
   Descent d;
@@ -56,13 +71,8 @@ DrapeReport drape_levels(const std::vector<model::Model>& coarse, const model::M
     const model::Model& level = coarse[d.level];
     model::State on_grid;
     on_grid.position = d.from >= 0 ? prolong(coarse[static_cast<std::size_t>(d.from)], d.positions, level) : level.start;
-    DrapeSettings rough = settings;
-    // A coarse garment only has to find the folds; the fine one comes to rest.
-    rough.settle = Settle::preview;
+    DrapeSettings rough = on_coarse_grid(settings, settings.max_steps - d.steps);
     rough.near_rest = d.from >= 0;
-    rough.certify = false;
-    rough.hysteresis = false;
-    rough.max_steps = std::min(std::max(1, settings.max_steps - d.steps), kMostCoarseSteps);
     rough.checkpoints = on_level(settings.checkpoints, d, coarse, resume);
     DrapeReport report = drape(level, bodies, on_grid, rough);
     if (report.status == DrapeStatus::not_resumed) return report;
@@ -73,8 +83,7 @@ DrapeReport drape_levels(const std::vector<model::Model>& coarse, const model::M
       report.steps = d.steps;
       return report;
     }
-    // What a coarse cloth cuts off a body the finer one mends; what it ties into knots stays tied.
-    if (report.status == DrapeStatus::diverged || (settings.self_collision && report.self_intersections > 0)) continue;
+    if (!found_folds(report, settings)) continue;
     d.from = static_cast<int>(d.level);
     d.positions = std::move(on_grid.position);
   }
