@@ -184,7 +184,7 @@ class Way {
       if (stop) return DrapeStatus::interrupted;
       if (calming_ > 0)
         relaxation_.set_time_step(calming_ == 1 ? kRestTimeStep : kCalmTimeStep);
-      else
+      else if (stage_ == Stage::settling)  // before, without weight and soft, cloth thrown ahead turns collars up again
         relaxation_.coast(d_.x);
       before_ = d_.x;
       StepReport step = relaxation_.step(d_.x);
