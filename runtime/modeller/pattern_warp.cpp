@@ -13,10 +13,17 @@ constexpr double kSampleLength = 0.02;                // m between two corners o
 constexpr int kFewestCorners = 2, kMostCorners = 24;  // of an edge
 constexpr double kFlatArea = 1e-14;                   // m^2, area of a triangle that is a line
 
-const design::Edge* find_edge(const design::Panel& panel, const std::string& name) {
-  for (const design::Edge& edge : panel.edges)
+constexpr double kMoved = 1e-6;                       // m, of a line, from which it counts
+constexpr double kOnSample = 1e-9;                    // m
+
+const design::Edge* find_edge(const std::vector<design::Edge>& edges, const std::string& name) {
+  for (const design::Edge& edge : edges)
     if (edge.name == name) return &edge;
   return nullptr;
+}
+
+int samples_of(double length) {
+  return std::clamp(static_cast<int>(length / kSampleLength), kFewestCorners, kMostCorners);
 }
 
 }  // namespace
@@ -24,14 +31,14 @@ const design::Edge* find_edge(const design::Panel& panel, const std::string& nam
 PatternWarp::PatternWarp(const design::Panel& before, const design::Panel& now) {
   bool moved = false;
   for (const design::Edge& edge : now.edges) {
-    const design::Edge* old = find_edge(before, edge.name);
+    const design::Edge* old = find_edge(before.edges, edge.name);
     const double length = edge.curve.length();
     if (old == nullptr || !(length > 0) || !(old->curve.length() > 0)) {
       at_.clear();
       move_.clear();
       return;
     }
-    const int n = std::clamp(static_cast<int>(length / kSampleLength), kFewestCorners, kMostCorners);
+    const int n = samples_of(length);
     for (int k = 0; k < n; ++k) {
       const double share = static_cast<double>(k) / n;
       const Point2 p = edge.curve.point_at(share * length),
@@ -41,10 +48,49 @@ PatternWarp::PatternWarp(const design::Panel& before, const design::Panel& now) 
       moved = moved || q != p;
     }
   }
+  const std::vector<Point2> ways = move_;
   if (!moved) move_.clear();
+  add_lines(before, now);
+  if (!samples_.empty()) move_ = ways;
+}
+
+void PatternWarp::add_lines(const design::Panel& before, const design::Panel& now) {
+  bool moved = false;
+  for (const design::Edge& line : now.lines) {
+    const design::Edge* old = find_edge(before.lines, line.name);
+    const double length = line.curve.length();
+    if (old == nullptr || !(length > 0) || !(old->curve.length() > 0)) continue;
+    const int n = samples_of(length);
+    for (int k = 0; k <= n; ++k) {
+      const double share = static_cast<double>(k) / n;
+      const Point2 p = line.curve.point_at(share * length), q = old->curve.point_at(share * old->curve.length());
+      samples_.push_back({p, q - by_outline(p), length / n});
+      moved = moved || samples_.back().off.norm() > kMoved;
+    }
+  }
+  if (!moved) return samples_.clear();
+  for (std::size_t i = 0; i < at_.size(); ++i) {  // the outline stays where its own way leads
+    const double length = (at_[(i + 1) % at_.size()] - at_[i]).norm();
+    if (length > 0) samples_.push_back({at_[i], Point2(0, 0), length});
+  }
 }
 
 Point2 PatternWarp::operator()(const Point2& p) const {
+  const Point2 there = by_outline(p);
+  if (samples_.empty()) return there;
+  Point2 sum(0, 0);
+  double weights = 0;
+  for (const Sample& sample : samples_) {
+    const double d = (p - sample.at).norm();
+    if (d < kOnSample) return there + sample.off;
+    const double w = sample.length / (d * d * d);
+    sum += w * sample.off;
+    weights += w;
+  }
+  return there + sum / weights;
+}
+
+Point2 PatternWarp::by_outline(const Point2& p) const {
   const std::size_t n = move_.size();
   if (n == 0) return p;
   Point2 sum(0, 0);

@@ -109,3 +109,27 @@ TEST_CASE("the way back of a redrawn outline") {
   other.edges[1].name = "renamed";
   CHECK(modeller::PatternWarp(before, other).identity());  // nothing to go by: material places stay
 }
+
+TEST_CASE("a line inside that was moved takes what lies about it along") {
+  auto with_line = [](double height) {
+    design::Panel panel = test::rectangle("p", 0.4, 0.3, 0.02);
+    panel.lines.push_back(test::edge("pocket", {0.1, height}, {0.3, height}));
+    return panel;
+  };
+  const design::Panel before = with_line(0.1), now = with_line(0.16);
+  const modeller::PatternWarp warp(before, now);
+  CHECK_FALSE(warp.identity());
+  CHECK((warp({0.1, 0.16}) - Point2(0.1, 0.1)).norm() < 1e-9);
+  CHECK((warp({0.2, 0.16}) - Point2(0.2, 0.1)).norm() < 1e-3);  // between two samples
+  CHECK((warp({0.213, 0.16}) - Point2(0.213, 0.1)).norm() < 1e-3);
+  CHECK((warp({0.2, 0}) - Point2(0.2, 0)).norm() < 1e-9);           // the outline stays
+  CHECK((warp({0.137, 0.3}) - Point2(0.137, 0.3)).norm() < 2e-3);
+  // Above and below the cloth gives way by less and less, and is not turned over.
+  double last = -1;
+  for (double y = 0; y <= 0.3001; y += 0.01) {
+    const double there = warp({0.2, y}).y();
+    CHECK(there > last);
+    last = there;
+  }
+  CHECK(modeller::PatternWarp(before, before).identity());
+}
