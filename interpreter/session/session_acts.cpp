@@ -14,6 +14,7 @@
 #include "runtime/results/report.hpp"
 #include "runtime/results/strain.hpp"
 #include "runtime/simulator/certificate.hpp"
+#include "runtime/simulator/approach.hpp"
 #include "runtime/simulator/drape_again.hpp"
 #include "runtime/simulator/drape_levels.hpp"
 #include "runtime/simulator/moved_bodies.hpp"
@@ -38,8 +39,8 @@ std::string summary(const model::Model& model, const model::State& state,
                      cuts == 0 ? "nothing intersects" : fmt::format("{} intersections", cuts));
 }
 
-/// The shape of `before` on the model of `stage`, every part of the cloth at its new size. Where that makes the cloth
-/// cut itself it lies as it did, squeezed or stretched.
+/// The shape of `before` on the model of `stage`, every part of the cloth at its new size, as far as cloth does not meet cloth on
+/// the way there from how it lay.
 model::State carried_state(const Stage& before, const Stage& stage) {
   const model::Model& model = *stage.modelled->model;
   const modeller::ModelledGarment was{before.evaluated->result.garment, *before.modelled->model},
@@ -49,7 +50,7 @@ model::State carried_state(const Stage& before, const Stage& stage) {
   state.velocity.assign(model.n_particles(), Eigen::Vector3d::Zero());
   state.position = modeller::reshape(was, before.shape.state->position, is, laid, stage.evaluated->result.bodies);
   if (state.position != laid.position && simulator::certify(model, state, {}).self_intersections > 0)
-    state.position = laid.position;
+    state.position = simulator::approach(model, laid.position, state.position);
   return state;
 }
 
