@@ -103,6 +103,13 @@ void BodyContact::remember_narrow(const Vectors& x) {
     if (memory_[i].age >= 0 && !found[i]) narrow_.push_back(memory_[i].push);
 }
 
+void BodyContact::copy(std::size_t i, const BodyContact& other, std::size_t at) {
+  extra_offset_[i] = other.extra_offset_[at];
+  memory_[i] = other.memory_[at];
+  memory_[i].push.particle = i;
+  for (std::size_t b = 0; b < soundings_.size(); ++b) soundings_[b][i] = other.soundings_[b][at];
+}
+
 void BodyContact::next_step() {
   for (Memory& m : memory_)
     if (m.age >= 0) ++m.age;

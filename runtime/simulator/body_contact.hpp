@@ -67,6 +67,8 @@ class BodyContact {
 
   /// By how much more than the settings' offset bodies keep each particle away, m [n_particles].
   std::vector<double>& extra_offset() { return extra_offset_; }
+  /// Particle i knows of the bodies what particle `at` of another garment by the same bodies knows.
+  void copy(std::size_t i, const BodyContact& other, std::size_t at);
   double stiffness() const { return stiffness_; }  ///< of one particle, N/m
   double least_distance() const;                   ///< at which a body begins to push a particle, over all of them, m
 

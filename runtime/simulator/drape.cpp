@@ -8,6 +8,7 @@
 #include <map>
 
 #include "runtime/base/number.hpp"
+#include "runtime/simulator/awake.hpp"
 #include "runtime/simulator/certificate.hpp"
 #include "runtime/simulator/culprit.hpp"
 #include "runtime/simulator/relaxation.hpp"
@@ -111,7 +112,7 @@ void push_pierced(const ContactMesh& mesh, const Tangle& tangle, Relaxation& rel
 /// At rest the exact test decides: what still pierces a body is pushed farther out, and settling goes on.
 class Way {
  public:
-  Way(Drape& d, const ContactMesh& all) : d_(d), all_(all), relaxation_(d.model, d.bodies, relaxation_settings(d)) {
+  Way(Drape& d, const ContactMesh& all) : d_(d), all_(all), relaxation_(d.model, d.bodies, relaxation_settings(d)), awake_(d.model, d.bodies, relaxation_) {
     if (d.settings.self_collision) relaxation_.set_tangle(find_tangle(relaxation_.mesh(), no_bodies(), d.x));
     if (d.settings.near_rest) {
       enter(Stage::settling);
@@ -206,6 +207,7 @@ class Way {
       }
       bool rest = rests(step, target);
       if (!rest) calm(step, target);
+      if (!rest && calming_ == 0 && step.accepted && relaxation_.plain()) awake_.settle(relaxation_, before_, target, d_.x);
       if (rest) d_.x = before_;  // the state that was judged
       if (rest && !certify) return DrapeStatus::at_rest;
       bool look = certify && step.residual < kNearRest && steps_in_stage_ % kRepairEvery == 0;
@@ -285,6 +287,7 @@ class Way {
   Drape& d_;
   const ContactMesh& all_;
   Relaxation relaxation_;
+  Awake awake_;
   Stage stage_ = Stage::soft;
   int most_steps_ = d_.settings.max_steps, increment_ = 0;  // of the weight, 0: the sliders have not begun
   int steps_in_stage_ = 0, refused_ = 0, repairs_ = 0;

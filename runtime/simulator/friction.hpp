@@ -53,6 +53,8 @@ class BodyFriction {
   void carry(std::size_t i, const Move& move) {
     if (touch_[i].anchored) touch_[i].anchor = move(touch_[i].anchor);
   }
+  /// Particle i has what particle `at` of another garment has.
+  void copy(std::size_t i, const BodyFriction& other, std::size_t at) { touch_[i] = other.touch_[at]; }
   /// Forgets all anchors.
   void clear();
   const std::vector<std::uint32_t>& touching() const { return active_; }

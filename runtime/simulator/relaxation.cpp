@@ -258,11 +258,25 @@ bool Relaxation::drive(const Vectors& x) {
   return true;
 }
 
+/// Shortens displacements that would lead farther than the leash.
+void Relaxation::pull_back(const Vectors& x) {
+  for (std::size_t i = 0; i < place_.size(); ++i) {
+    const Vector3d off = x[i] - place_[i], d = dx_[i];
+    if ((off + d).squaredNorm() <= leash_ * leash_) continue;
+    // The larger root of |off + s d| = leash: off is within.
+    const double a = d.squaredNorm(), b = off.dot(d), c = std::min(0.0, off.squaredNorm() - leash_ * leash_);
+    dx_[i] *= a > 0 ? std::clamp((std::sqrt(b * b - a * c) - b) / a, 0.0, 1.0) : 0;
+    at_leash_ = true;
+  }
+}
+
 /// Bounds dx_: at most one cell, and nothing that starts an intersection.
 TruncateStats Relaxation::keep_apart(const Vectors& x) {
   double stride = largest(dx_);
   if (stride > spacing_)  // farther than a cell the linear picture of the folds says nothing
     for (Vector3d& d : dx_) d *= spacing_ / stride;
+  at_leash_ = false;
+  pull_back(x);
   whole_ = dx_;
   TruncateStats cut = truncate(mesh_, candidates_.list(), x, dx_);
   if (cut.out_of_reach == 0) return cut;
@@ -308,6 +322,25 @@ void Relaxation::damp(const Vectors& before, const Vectors& after) {
   }
 }
 
+void Relaxation::borrow(Relaxation& whole, const std::vector<model::Index>& particle) {
+  for (std::size_t k = 0; k < particle.size(); ++k) {
+    const auto i = static_cast<std::size_t>(particle[k]);
+    friction_.copy(k, whole.friction_, i);
+    bodies_.copy(k, whole.bodies_, i);
+  }
+  time_step_ = whole.time_step_;
+}
+
+void Relaxation::give_back(Relaxation& whole, const std::vector<model::Index>& particle, const std::vector<char>& free) {
+  for (std::size_t k = 0; k < particle.size(); ++k) {
+    if (free[k] == 0) continue;
+    const auto i = static_cast<std::size_t>(particle[k]);
+    whole.friction_.copy(i, friction_, k);
+    whole.bodies_.copy(i, bodies_, k);
+  }
+  whole.stop();
+}
+
 void Relaxation::coast(Vectors& x) {
   origin_.clear();
   // In a tangle the energy says nothing; where cloth rubs on cloth, or within itself, the way counts.
@@ -318,6 +351,7 @@ void Relaxation::coast(Vectors& x) {
   share = std::min(share, kMostCoasted * spacing_ / std::max(largest(way), 1e-12));
   dx_.resize(x.size());
   for (std::size_t i = 0; i < x.size(); ++i) dx_[i] = holds_.filtered(i, Vector3d(share * way[i]));
+  pull_back(x);
   refresh_candidates(x);
   truncate(mesh_, candidates_.list(), x, dx_);
   origin_ = x;

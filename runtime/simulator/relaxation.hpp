@@ -97,6 +97,20 @@ class Relaxation {
   /// Exempts what is tangled now from contacts and walls, and remembers to take it apart with every step.
   void set_tangle(Tangle tangle);
   const Tangle& tangle() const { return tangle_; }
+  // A garment that is part of another one (awake.hpp): `particle` are the whole's of each of its own.
+  /// Takes over what lasts from step to step; time steps and weights are the whole's.
+  void borrow(Relaxation& whole, const std::vector<model::Index>& particle);
+  /// Gives it back, for the particles that are free. The whole's next step goes from where x is.
+  void give_back(Relaxation& whole, const std::vector<model::Index>& particle, const std::vector<char>& free);
+  /// No particle goes farther from its place than `leash` (m) from now on.
+  void keep_near(std::vector<Eigen::Vector3d> place, double leash) { place_ = std::move(place), leash_ = leash; }
+  /// Did the leash cut the last step back?
+  bool at_leash() const { return at_leash_; }
+  /// No tangle is taken apart, and neither cloth rubs on cloth nor within itself: energy tells all.
+  bool plain() const { return tangle_.empty() && inner_.idle() && cloth_friction_.idle(); }
+  const RelaxationSettings& settings() const { return settings_; }
+  double rms_weight() const { return rms_weight_; }  ///< N, of the particles
+
   /// In a checkpoint: all that lasts from step to step but the positions and where bodies and holds are.
   void keep(Archive& a);
 
@@ -114,6 +128,7 @@ class Relaxation {
   void solve_step(const std::vector<Eigen::Vector3d>& x, StepReport& report);
   std::size_t foresee_contacts(const std::vector<Eigen::Vector3d>& x);
   bool drive(const std::vector<Eigen::Vector3d>& x);
+  void pull_back(const std::vector<Eigen::Vector3d>& x);
   TruncateStats keep_apart(const std::vector<Eigen::Vector3d>& x);
   void damp(const std::vector<Eigen::Vector3d>& before, const std::vector<Eigen::Vector3d>& after);
   double search(const std::vector<Eigen::Vector3d>& x, double before, bool driven, StepReport& report);
@@ -148,6 +163,9 @@ class Relaxation {
   Momentum momentum_;
   std::vector<Eigen::Vector3d> origin_;  // where x was before it coasted; empty: it did not
   BodyFriction rubbed_;                  // friction there
+  std::vector<Eigen::Vector3d> place_;   // from which particles go no farther than the leash; empty: wherever they like
+  double leash_ = 0;                     // m
+  bool at_leash_ = false;
   std::vector<Eigen::Vector3d> force_, wish_, net_, dx_, whole_, trial_, untangle_;
 };
 
