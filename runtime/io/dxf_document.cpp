@@ -8,6 +8,7 @@
 
 #include "runtime/base/number.hpp"
 #include "runtime/base/portable_math.hpp"
+#include "runtime/io/dxf_curves.hpp"
 
 namespace garment::io {
 namespace {
@@ -248,8 +249,20 @@ class DxfParser {
       entity_->kind = Kind::circle, entity_->points.resize(1);
     else if (type == "INSERT")
       entity_->kind = Kind::insert, entity_->points.resize(1);
+    else if (type == "SPLINE")
+      entity_->kind = Kind::spline, spline_ = {};
+    else if (type == "ELLIPSE")
+      entity_->kind = Kind::ellipse, ellipse_ = {};
+    if (entity_->kind == Kind::other && type != "VIEWPORT") pass_over(type);  // a view draws nothing itself
     light_ = type == "LWPOLYLINE";
     return count(1);
+  }
+
+  void pass_over(std::string_view type) {
+    constexpr std::size_t kMostKinds = 24;
+    std::string kind = to_utf8(type.substr(0, 40));
+    if (document_.passed_over.size() >= kMostKinds && !document_.passed_over.contains(kind)) kind = "other";
+    ++document_.passed_over[kind];
   }
 
   void in_record(const Pair& pair) {
@@ -315,14 +328,22 @@ class DxfParser {
         return;
       case 70: {
         const auto flags = parse_number(trimmed(pair.value));
-        if (e.kind == Kind::polyline && flags && *flags >= 0 && *flags < 32768)
+        if ((e.kind == Kind::polyline || e.kind == Kind::spline) && flags && *flags >= 0 && *flags < 32768)
           e.closed = (static_cast<int>(*flags) & 1) != 0;
         return;
       }
+      case 71:
+        if (const auto degree = parse_number(trimmed(pair.value)); e.kind == Kind::spline && degree)
+          spline_.degree = static_cast<int>(std::clamp(*degree, -1.0, 1000.0));
+        return;
       case 10:
       case 20:
       case 11:
       case 21:
+      case 12:
+      case 22:
+      case 13:
+      case 23:
       case 40:
       case 41:
       case 42:
@@ -346,6 +367,10 @@ class DxfParser {
       if (e.points.empty()) return;
       if (code == 10 || code == 20) e.points.back().point[static_cast<Eigen::Index>(axis)] = value;
       if (code == 42) e.points.back().bulge = value;
+    } else if (e.kind == Kind::spline) {
+      set_spline(code, value);
+    } else if (e.kind == Kind::ellipse) {
+      set_ellipse(code, value);
     } else if (code == 10 || code == 20) {
       if (!e.points.empty()) e.points[0].point[static_cast<Eigen::Index>(axis)] = value;
     } else if (code == 11 || code == 21) {
@@ -361,14 +386,67 @@ class DxfParser {
     }
   }
 
+  void set_spline(int code, double value) {
+    DxfSpline& s = spline_;
+    const Eigen::Index axis = code % 100 >= 20 ? 1 : 0;
+    auto place = [&](std::vector<Point2>& points) {
+      if (axis == 0 && count(1)) points.emplace_back(0, 0);
+      if (!points.empty()) points.back()[axis] = value;
+    };
+    if (code == 10 || code == 20) place(s.control);
+    if (code == 11 || code == 21) place(s.fit);
+    if (code == 12 || code == 22) s.start[axis] = value;
+    if (code == 13 || code == 23) s.end[axis] = value;
+    if (code == 40 && count(1)) s.knots.push_back(value);
+    if (code == 41 && count(1)) s.weights.push_back(value);
+  }
+
+  void set_ellipse(int code, double value) {
+    const Eigen::Index axis = code % 100 >= 20 ? 1 : 0;
+    if (code == 10 || code == 20) ellipse_.centre[axis] = value;
+    if (code == 11 || code == 21) ellipse_.major[axis] = value;
+    if (code == 40) ellipse_.ratio = value;
+    if (code == 41) ellipse_.from = value;
+    if (code == 42) ellipse_.to = value;
+  }
+
+  /// A spline or an ellipse becomes a polyline; false, and a warning, where it is none.
+  bool flatten(DxfEntity& e) {
+    const bool spline = e.kind == Kind::spline;
+    spline_.closed = e.closed;
+    ellipse_.flipped = flipped_;
+    const DxfFlattened curve = spline ? flattened(spline_) : flattened(ellipse_);
+    e.kind = Kind::polyline;
+    e.closed = curve.closed;
+    if (!curve.fault.empty())
+      report_.warning("G0969",
+                      fmt::format("line {}: a {} with {}; it is left out", e.line, spline ? "SPLINE" : "ELLIPSE",
+                                  curve.fault),
+                      "draw that line again, or export curves as polylines");
+    for (const Point2& p : curve.points) e.points.push_back({p, 0});
+    return count(curve.points.size()) && curve.fault.empty();
+  }
+
+  /// Into the drawing's own plane, for kinds whose coordinates are those of their own one: seen from behind, x
+  /// runs the other way.
+  static void turn_round(DxfEntity& e) {
+    if (e.kind == Kind::line || e.kind == Kind::point) return;
+    for (DxfVertex& v : e.points) v.point.x() = -v.point.x(), v.bulge = -v.bulge;
+    if (e.kind == Kind::arc) {
+      const double from = e.from;
+      e.from = 180 - e.to;
+      e.to = 180 - from;
+    }
+    if (e.kind == Kind::insert) e.scale.x() = -e.scale.x(), e.turn = -e.turn;
+  }
+
   void finish_entity() {
     if (!entity_) return;
     if (polyline_) finish_vertex();
-    if (flipped_ && !light_ && entity_->kind != Kind::arc)
-      for (DxfVertex& v : entity_->points) v.point.x() = -v.point.x(), v.bulge = -v.bulge;
-    if (entity_->kind == Kind::other)
-      ++document_.passed_over;
-    else if (!(entity_->kind == Kind::polyline && entity_->points.empty()))
+    const bool curve = entity_->kind == Kind::spline || entity_->kind == Kind::ellipse;
+    if (flipped_ && !curve) turn_round(*entity_);
+    const bool drawn = curve ? flatten(*entity_) : entity_->kind != Kind::other;
+    if (drawn && !(entity_->kind == Kind::polyline && entity_->points.empty()))
       (in_block_ ? document_.blocks.back().entities : document_.entities).push_back(std::move(*entity_));
     entity_.reset();
     polyline_ = flipped_ = light_ = false;
@@ -384,6 +462,8 @@ class DxfParser {
   bool name_section_ = false, in_block_ = false, block_head_ = false, table_record_ = false;
   bool ended_ = false, failed_ = false;
   std::optional<DxfEntity> entity_;
+  DxfSpline spline_;    // of entity_
+  DxfEllipse ellipse_;  // of entity_
   bool polyline_ = false, light_ = false, flipped_ = false;
   DxfVertex vertex_;
   bool has_vertex_ = false, vertex_known_ = false, vertex_frame_ = false;

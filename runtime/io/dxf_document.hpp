@@ -29,8 +29,9 @@ struct DxfVertex {
   double bulge = 0;  ///< tangent of a quarter of the angle that the arc to the next vertex turns by
 };
 
+/// An entity as it is drawn; splines and ellipses are polylines by the time the file is read.
 struct DxfEntity {
-  enum class Kind { line, polyline, point, text, arc, circle, insert, other } kind = Kind::other;
+  enum class Kind { line, polyline, point, text, arc, circle, insert, spline, ellipse, other } kind = Kind::other;
   std::string layer, text;  ///< text: also the name of an inserted block
   std::size_t line = 0;     ///< of the file, from 1
   std::vector<DxfVertex> points;
@@ -51,12 +52,12 @@ struct DxfDocument {
   std::map<std::string, double> header;  ///< numeric variables: "$INSUNITS", "$MEASUREMENT"
   std::vector<DxfBlock> blocks;
   std::vector<DxfEntity> entities;
-  std::size_t passed_over = 0;  ///< entities of kinds that are not read
+  std::map<std::string, std::size_t> passed_over;  ///< entities of kinds that are not read, how many of each
 };
 
-/// Reads the file; nothing, and an error in `report` with the line of the file, where it is none: binary
+/// Reads the file, splines and ellipses flattened (dxf_curves.hpp); nothing, and an error in `report` with the line of the file, where it is none: binary
 /// (G0960), pairs or numbers out of order (G0961), too large (G0962). A file that breaks off is read as far
-/// as it goes, with a warning (G0963). Text is made UTF-8: what is not is taken as Latin-1, and \U+00E9 is
+/// as it goes, with a warning (G0963); a spline or an ellipse that cannot be is left out with another (G0969). Text is made UTF-8: what is not is taken as Latin-1, and \U+00E9 is
 /// decoded.
 std::optional<DxfDocument> parse_dxf(std::string_view bytes, const DxfLimits& limits, PatternReport& report);
 

@@ -99,12 +99,25 @@ class DxfReader {
                     "see the warnings above");
       return std::nullopt;
     }
-    if (document.passed_over > 0)
-      report_.note(fmt::format(
-          "{} entities of other kinds than lines, polylines, arcs, points and texts are passed over",
-          document.passed_over));
+    tell_passed_over(document);
     lay_flat(garment);
     return garment;
+  }
+
+  void tell_passed_over(const DxfDocument& document) {
+    std::size_t all = 0;
+    std::string kinds;
+    for (const auto& [kind, number] : document.passed_over) {
+      all += number;
+      kinds += fmt::format("{}{} {}", kinds.empty() ? "" : ", ", number, in_ticks(kind));
+    }
+    if (all > 0)
+      report_.warning("G0969",
+                      fmt::format("{} of the file {} of kinds that are not read: {}; expected lines, polylines, arcs, "
+                                  "ellipses, splines, points and texts",
+                                  all == 1 ? "1 entity" : fmt::format("{} entities", all), all == 1 ? "is" : "are",
+                                  kinds),
+                      "where they are part of a piece, explode them before the export");
   }
 
   void tell(const std::string& name, const std::string& panel,

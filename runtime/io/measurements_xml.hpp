@@ -14,7 +14,7 @@ inline constexpr std::uint64_t kMaxMeasurementBytes = 4u << 20;
 struct Measurement {
   std::string name;    ///< without the @ or # of a custom measure
   double value = 0;    ///< m, or rad
-  bool angle = false;  ///< an angle: its name ends in `_angle`, as in Seamly's own list
+  bool angle = false;  ///< an angle: its name ends in `_angle`, as in Seamly's own list, or it has `specialUnits`
 };
 
 struct MeasurementOptions {
@@ -31,7 +31,12 @@ struct MeasurementsResult {
 ///
 /// Multisize: value = base + (size - base size) / 2 cm * size_increase + (height - base height) / 6 cm *
 /// height_increase: the steps are those of both programs (`MeasurementVariable::CalcValue`), whatever sizes
-/// the file lists.
+/// the file lists. Where a measure has `sizeRules` or `heightRules`, each step counts with the increment of the last
+/// break whose threshold is not above the place where the step begins, before the first with the plain one; part of
+/// a step counts in part.
+///
+/// Newer files of Valentina state `dimensions` with steps of their own, a shift for each and corrections for single
+/// sizes; `size` is their dimension y, `height` x, and the others (hip, waist) stay at their base.
 ///
 /// Errors, each with the line: G0720 no measurement file, G0721 a value that cannot be computed (unknown
 /// name, cycle, not finite, no formula). Entities of a document type are not expanded.

@@ -107,6 +107,23 @@ std::optional<Chart> develop(const Sheet& sheet, const model::Model& model, Inde
 
 namespace {
 
+/// The orthogonal factor of the QR decomposition of `a`, which has more rows than columns: [n x n]. Step by step, as Eigen's
+/// HouseholderQR does it for so few columns; its products of blocks would take most of the time to compile this file.
+Eigen::MatrixXd orthogonal_factor(Eigen::MatrixXd a) {
+  const Eigen::Index n = a.rows(), columns = a.cols();
+  std::vector<double> work(static_cast<std::size_t>(n)), coefficient(static_cast<std::size_t>(columns));
+  for (Eigen::Index k = 0; k < columns; ++k) {
+    double diagonal = 0, &c = coefficient[static_cast<std::size_t>(k)];
+    a.col(k).tail(n - k).makeHouseholderInPlace(c, diagonal);
+    a(k, k) = diagonal;
+    a.bottomRightCorner(n - k, columns - k - 1).applyHouseholderOnTheLeft(a.col(k).tail(n - k - 1), c, work.data());
+  }
+  Eigen::MatrixXd q = Eigen::MatrixXd::Identity(n, n);
+  for (Eigen::Index k = columns; k-- > 0;)
+    q.bottomRows(n - k).applyHouseholderOnTheLeft(a.col(k).tail(n - k - 1), coefficient[static_cast<std::size_t>(k)], work.data());
+  return q;
+}
+
 /// Rows: the quadratic's terms at every point, times the point's weight (`root`). An orthonormal basis of what the rows do
 /// not reach, three vectors a group.
 void add_residual(const std::vector<Eigen::Matrix<double, 5, 1>>& rows, const std::vector<double>& root, double scale,
@@ -115,7 +132,7 @@ void add_residual(const std::vector<Eigen::Matrix<double, 5, 1>>& rows, const st
   if (n <= 5) return;
   Eigen::MatrixXd terms(n, 5);
   for (Eigen::Index j = 0; j < n; ++j) terms.row(j) = rows[j].transpose();
-  const Eigen::MatrixXd basis = Eigen::HouseholderQR<Eigen::MatrixXd>(terms).householderQ() * Eigen::MatrixXd::Identity(n, n);
+  const Eigen::MatrixXd basis = orthogonal_factor(std::move(terms));
   for (Eigen::Index first = 5; first < n; first += 3) {
     std::vector<Eigen::Vector3d> group;
     Eigen::Vector3d sum(0, 0, 0);

@@ -25,6 +25,15 @@ bool contains_no_case(std::string_view text, std::string_view part) {
   return std::search(text.begin(), text.end(), part.begin(), part.end(), same) != text.end();
 }
 
+/// The smallest turn that brings `from` to the direction of `to`, which is not the opposite one. Eigen's FromTwoVectors knows
+/// that one too, by a singular value decomposition that takes as long to compile as the rest of this file four times.
+Eigen::Matrix3d turn_to(const Vector3d& from, const Vector3d& to) {
+  const Vector3d a = from.normalized(), b = to.normalized();
+  const double s = std::sqrt((1 + b.dot(a)) * 2);
+  const Vector3d axis = a.cross(b) * (1 / s);
+  return Eigen::Quaterniond(s * 0.5, axis.x(), axis.y(), axis.z()).toRotationMatrix();
+}
+
 bool is_rigid(const design::Panel& panel) { return panel.placement.kind == Placement::Kind::rigid; }
 
 template <class F>
@@ -158,7 +167,7 @@ void follow_arms(const design::Garment& garment, const body::Body& body, const m
     Vector3d from = along(arm->second, begin), to = along(arm->second, begin + sleeve.length);
     Vector3d axis = (to - from).normalized(), middle = (from + to) / 2;
     if (axis.dot(sleeve.axis) < -0.5) continue;  // drawn the wrong way round: nothing to follow
-    Eigen::Matrix3d turn = Eigen::Quaterniond::FromTwoVectors(sleeve.axis, axis).toRotationMatrix();
+    const Eigen::Matrix3d turn = turn_to(sleeve.axis, axis);
     for (std::size_t p : sleeve.panels)
       for_vertices(model, p, [&](Index v) { place[v] = middle + turn * (place[v] - sleeve.middle); });
     slide_out(model, sleeve.panels, in_sleeve, axis, place);

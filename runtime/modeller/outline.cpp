@@ -300,9 +300,10 @@ bool on_cloth(const Point2& p, const std::vector<Trace>& border) {
   return inside;
 }
 
-/// Adds what of the lines lies on the cloth, off its border.
+/// Adds what of the lines lies on the cloth, off its border, and along no line before.
 void append_lines(const std::vector<InnerLine>& lines, double h, Outline& outline) {
-  std::vector<Trace> border;
+  constexpr double kPlaces[] = {0, 0.3, 0.5, 0.8, 1};
+  std::vector<Trace> border, added;
   if (!lines.empty())
     for (const Piece& piece : outline.pieces) border.push_back(trace_of(piece, h));
   for (const InnerLine& line : lines) {
@@ -321,11 +322,18 @@ void append_lines(const std::vector<InnerLine>& lines, double h, Outline& outlin
       const Point2 middle = line.curve.point_at(0.5 * (cuts[k] + cuts[k + 1]));
       const bool along_border = std::any_of(border.begin(), border.end(), [&](const Trace& piece) { return nearest(piece, middle).first <= kNear * h; });
       if (along_border || !on_cloth(middle, border)) continue;
+      const bool again = std::any_of(added.begin(), added.end(), [&](const Trace& other) {
+        return std::all_of(std::begin(kPlaces), std::end(kPlaces), [&](double place) {
+          return nearest(other, line.curve.point_at(cuts[k] + place * (cuts[k + 1] - cuts[k]))).first <= kNear * h;
+        });
+      });
+      if (again) continue;
       outline.lines.push_back(line);
       outline.lines.back().from = cuts[k];
       outline.lines.back().to = cuts[k + 1];
       outline.loops.push_back(outline.pieces.size());
       outline.pieces.push_back(piece_of(line, cuts[k], cuts[k + 1]));
+      added.push_back(trace_of(outline.pieces.back(), h));
     }
   }
 }

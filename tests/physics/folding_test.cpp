@@ -1,6 +1,7 @@
 // What is folded at rest: lines that the mesh follows, seams, pleats, slits - from the declared garment to the forces.
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "runtime/base/portable_math.hpp"
@@ -145,13 +146,36 @@ TEST_CASE("the forces of folds are minus the gradient of their energy, and turn 
   }
 }
 
-TEST_CASE("a slit opens the cloth along its line and nowhere else") {
-  design::Garment g = test::single(test::rectangle("cloth", 0.2, 0.3, 0.01));
-  g.panels[0].lines = {test::edge("inside", {0.05, 0.1}, {0.13, 0.16}), test::edge("vent", {0.1, 0}, {0.104, 0.12})};
-  g.panels[0].slits = {{"a", {}, 0}, {"b", {}, 1}};
-  const model::Model m = built(g);
-  CHECK(mass_of(m) == Approx(0.2 * 0.2 * 0.3).epsilon(1e-12));
-  // Sides of triangles that no other triangle has: the outline, and both lips of the slits.
+namespace {
+
+/// Pieces of cloth that hang together, by their triangles.
+int pieces_of(const model::Model& m) {
+  std::vector<model::Index> root(m.n_particles());
+  for (std::size_t i = 0; i < root.size(); ++i) root[i] = static_cast<model::Index>(i);
+  auto find = [&](model::Index i) {
+    while (root[i] != i) i = root[i] = root[root[i]];
+    return i;
+  };
+  for (std::size_t t = 0; t < m.n_triangles(); ++t) {
+    const auto c = m.corners(t);
+    root[find(c[1])] = find(c[0]);
+    root[find(c[2])] = find(c[0]);
+  }
+  int pieces = 0;
+  for (std::size_t i = 0; i < root.size(); ++i) pieces += find(static_cast<model::Index>(i)) == static_cast<model::Index>(i);
+  return pieces;
+}
+
+/// Number of particles within 0.2 mm of a place.
+int particles_at(const model::Model& m, const Point2& p) {
+  std::set<model::Index> found;
+  for (std::size_t v = 0; v < m.n_vertices(); ++v)
+    if ((m.vertex_uv[v] - p).norm() < 2e-4) found.insert(m.vertex_particle[v]);
+  return static_cast<int>(found.size());
+}
+
+/// Length of the sides of triangles that no other triangle has: the outline, and both lips of the slits.
+double open_length(const model::Model& m) {
   std::map<std::pair<model::Index, model::Index>, int> sides;
   for (std::size_t t = 0; t < m.n_triangles(); ++t)
     for (int k = 0; k < 3; ++k) {
@@ -163,13 +187,77 @@ TEST_CASE("a slit opens the cloth along its line and nowhere else") {
     CHECK(n <= 2);
     if (n == 1) open += (m.start[side.first] - m.start[side.second]).norm();
   }
-  CHECK(open == Approx(2 * (0.2 + 0.3) + 2 * (0.1 + std::hypot(0.004, 0.12))).epsilon(1e-3));
-  simulator::Certificate certificate = simulator::certify(m, {m.start, Positions(m.n_particles(), Vector3d::Zero())}, {});
-  CHECK(certificate.self_intersections == 0);
+  return open;
+}
+
+/// Area of the pattern, each of whose triangles is the right way up.
+double flat_area(const model::Model& m) {
+  double area = 0;
   for (std::size_t t = 0; t < m.n_triangles(); ++t) {
     const auto& v = m.triangle[t];
     const Point2 a = m.vertex_uv[v[1]] - m.vertex_uv[v[0]], b = m.vertex_uv[v[2]] - m.vertex_uv[v[0]];
     CHECK(a.x() * b.y() - a.y() * b.x() > 0);
+    area += (a.x() * b.y() - a.y() * b.x()) / 2;
+  }
+  return area;
+}
+
+}  // namespace
+
+TEST_CASE("a slit opens the cloth along its line and nowhere else") {
+  design::Garment g = test::single(test::rectangle("cloth", 0.2, 0.3, 0.01));
+  g.panels[0].lines = {test::edge("inside", {0.05, 0.1}, {0.13, 0.16}), test::edge("vent", {0.1, 0}, {0.104, 0.12})};
+  g.panels[0].slits = {{"a", {}, 0}, {"b", {}, 1}};
+  const model::Model m = built(g);
+  CHECK(mass_of(m) == Approx(0.2 * 0.2 * 0.3).epsilon(1e-12));
+  CHECK(open_length(m) == Approx(2 * (0.2 + 0.3) + 2 * (0.1 + std::hypot(0.004, 0.12))).epsilon(1e-3));
+  simulator::Certificate certificate = simulator::certify(m, {m.start, Positions(m.n_particles(), Vector3d::Zero())}, {});
+  CHECK(certificate.self_intersections == 0);
+  flat_area(m);
+}
+
+TEST_CASE("where slits meet the cloth is cut along both") {
+  using Lines = std::vector<design::Edge>;
+  struct Case {
+    const char* name;
+    Lines lines;
+    Point2 meet;
+    int particles, pieces;
+    double cut;  // m
+  };
+  const double slant = std::hypot(0.1, 0.06);
+  const std::vector<Case> cases{
+      {"T", {test::edge("bar", {0.05, 0.2}, {0.15, 0.2}), test::edge("stem", {0.1, 0.2}, {0.1, 0.08})}, {0.1, 0.2}, 3, 1, 0.22},
+      {"T, the stem drawn first and the other way",
+       {test::edge("stem", {0.093, 0.08}, {0.093, 0.2}), test::edge("bar", {0.15, 0.2}, {0.05, 0.2})}, {0.093, 0.2}, 3, 1, 0.22},
+      {"X", {test::edge("a", {0.05, 0.15}, {0.15, 0.15}), test::edge("b", {0.1, 0.08}, {0.1, 0.22})}, {0.1, 0.15}, 4, 1, 0.24},
+      {"slanted X", {test::edge("a", {0.05, 0.12}, {0.15, 0.18}), test::edge("b", {0.15, 0.12}, {0.05, 0.18})}, {0.1, 0.15}, 4, 1, 2 * slant},
+      {"L", {test::edge("a", {0.05, 0.2}, {0.15, 0.2}), test::edge("b", {0.15, 0.2}, {0.15, 0.1})}, {0.15, 0.2}, 2, 1, 0.2},
+      {"star", {test::edge("a", {0.05, 0.15}, {0.15, 0.15}), test::edge("b", {0.1, 0.08}, {0.1, 0.22}), test::edge("c", {0.1, 0.15}, {0.16, 0.21})},
+       {0.1, 0.15}, 5, 1, 0.24 + std::hypot(0.06, 0.06)},
+      {"T on the edge: a slit to it and one off that",
+       {test::edge("a", {0.1, 0}, {0.1, 0.16}), test::edge("b", {0.1, 0.1}, {0.16, 0.1})}, {0.1, 0.1}, 3, 1, 0.22},
+      {"two slits from one place of the edge", {test::edge("a", {0.1, 0}, {0.06, 0.1}), test::edge("b", {0.1, 0}, {0.14, 0.1})},
+       {0.1, 0}, 3, 1, 2 * std::hypot(0.04, 0.1)},
+      {"a frame that lets a piece go",
+       {test::edge("a", {0.04, 0.1}, {0.16, 0.1}), test::edge("b", {0.04, 0.2}, {0.16, 0.2}), test::edge("c", {0.05, 0.08}, {0.05, 0.22}),
+        test::edge("d", {0.15, 0.08}, {0.15, 0.22})},
+       {0.05, 0.1}, 4, 2, 0.52},
+      {"the same line twice", {test::edge("a", {0.05, 0.15}, {0.15, 0.15}), test::edge("b", {0.05, 0.15}, {0.15, 0.15})}, {0.1, 0.15}, 2, 1, 0.1},
+  };
+  for (const Case& c : cases) {
+    INFO(c.name);
+    design::Garment g = test::single(test::rectangle("cloth", 0.2, 0.3, 0.01));
+    g.panels[0].lines = c.lines;
+    for (std::size_t k = 0; k < c.lines.size(); ++k) g.panels[0].slits.push_back({c.lines[k].name, {}, static_cast<int>(k)});
+    const model::Model m = built(g);
+    CHECK(mass_of(m) == Approx(0.2 * 0.2 * 0.3).epsilon(1e-12));
+    CHECK(flat_area(m) == Approx(0.2 * 0.3 - 1e-4 * c.cut).margin(0.3e-4 * c.cut));  // the slits are 0.1 mm wide
+    CHECK(particles_at(m, c.meet) == c.particles);
+    CHECK(pieces_of(m) == c.pieces);
+    CHECK(open_length(m) == Approx(2 * (0.2 + 0.3) + 2 * c.cut).margin(2e-3));
+    const simulator::Certificate at_start = simulator::certify(m, {m.start, Positions(m.n_particles(), Vector3d::Zero())}, {});
+    CHECK(at_start.self_intersections == 0);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "runtime/simulator/elastic.hpp"
+#include "tests/support/dense_algebra.hpp"
 
 namespace garment::test {
 
@@ -49,7 +50,7 @@ inline NewtonResult settle_dense(const model::Model& m, std::vector<Eigen::Vecto
     a.diagonal().array() += damping * diagonal;
     for (std::size_t i = 0; i < n; ++i)
       if (held[i]) a.diagonal().segment<3>(3 * i).array() += 1e9 * diagonal;
-    const Eigen::VectorXd step = a.llt().solve(b);
+    const Eigen::VectorXd step = test::solved(a, b);
     double length = 1;
     for (; length > 1e-8; length /= 2) {
       std::vector<Eigen::Vector3d> y = x;

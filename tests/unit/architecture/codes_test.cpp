@@ -65,7 +65,7 @@ const std::map<std::string, std::string> kElsewhere = {
     {"G0956", "unit/io"}, {"G0957", "unit/io"}, {"G0906", "property"}, {"G0958", "property"},
     // Pieces in DXF.
     {"G0961", "unit/io"}, {"G0962", "unit/io"}, {"G0963", "unit/io"}, {"G0964", "unit/io"}, {"G0965", "unit/io"},
-    {"G0966", "unit/io"}, {"G0967", "unit/io"}, {"G0968", "unit/io"},
+    {"G0966", "unit/io"}, {"G0967", "unit/io"}, {"G0968", "unit/io"}, {"G0969", "unit/io"},
     // Drawings in SVG.
     {"G0971", "unit/io"}, {"G0972", "unit/io"}, {"G0973", "unit/io"}, {"G0974", "unit/io"},
     // Files beside the prompt; what an editor asks.

@@ -5,6 +5,7 @@
 #include <functional>
 #include <sstream>
 
+#include "runtime/io/dxf_curves.hpp"
 #include "runtime/io/dxf_import.hpp"
 #include "runtime/io/dxf_writer.hpp"
 #include "runtime/io/pattern_panel.hpp"
@@ -335,6 +336,227 @@ TEST_CASE("arcs, circles and blocks in blocks") {
   const io::DxfResult deep = dxf_of(loop);
   CHECK(garment_of(deep).panels.size() == 1);
   CHECK(pattern_test::has_code(deep.findings, "G0964"));
+}
+
+namespace {
+
+/// Basis function of Cox and de Boor by its own recursion.
+double basis(const std::vector<double>& t, std::size_t i, int p, double u) {
+  if (p == 0) return t[i] <= u && u < t[i + 1] ? 1 : 0;
+  const auto k = static_cast<std::size_t>(p);
+  const double left = t[i + k] - t[i], right = t[i + k + 1] - t[i + 1];
+  return (left > 0 ? (u - t[i]) / left * basis(t, i, p - 1, u) : 0) +
+         (right > 0 ? (t[i + k + 1] - u) / right * basis(t, i + 1, p - 1, u) : 0);
+}
+
+Point2 spline_point(const io::DxfSpline& s, double u) {
+  Point2 sum(0, 0);
+  double weight = 0;
+  for (std::size_t i = 0; i < s.control.size(); ++i) {
+    const double b = basis(s.knots, i, s.degree, u) * (s.weights.empty() ? 1 : s.weights[i]);
+    sum += b * s.control[i];
+    weight += b;
+  }
+  return sum / weight;
+}
+
+double polygon_distance(const std::vector<Point2>& polygon, bool closed, const Point2& p) {
+  double best = 1e300;
+  for (std::size_t i = 0; i + (closed ? 0 : 1) < polygon.size(); ++i) {
+    const Point2 &a = polygon[i], d = polygon[(i + 1) % polygon.size()] - a;
+    best = std::min(best, (a + std::clamp((p - a).dot(d) / d.squaredNorm(), 0.0, 1.0) * d - p).norm());
+  }
+  return best;
+}
+
+}  // namespace
+
+TEST_CASE("a flattened spline lies on the curve of its basis functions") {
+  const std::vector<Point2> control{{0, 0}, {60, 90}, {150, -40}, {210, 120}, {320, 60}, {300, -90}, {180, -80}};
+  struct Case {
+    int degree;
+    std::vector<double> knots, weights;
+  };
+  const std::vector<Case> cases{
+      {3, {0, 0, 0, 0, 1, 2, 3, 4, 4, 4, 4}, {}},
+      {3, {0, 0, 0, 0, 0.3, 0.3, 0.9, 2, 2, 2, 2}, {1, 2, 0.5, 4, 1, 1, 3}},
+      {3, {-3, -2, -1, 0, 1, 2, 3, 4, 5, 6, 7}, {}},  // not clamped
+      {2, {0, 0, 0, 1, 1, 2, 3, 4, 4, 4}, {}},       // with a corner at the double knot
+      {1, {0, 0, 1, 2, 3, 4, 5, 6, 6}, {}},
+      {6, {0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1}, {}},
+  };
+  for (const Case& c : cases) {
+    INFO("degree " << c.degree << ", first inner knot " << c.knots[4]);
+    const io::DxfSpline spline{c.degree, false, c.knots, c.weights, control, {}};
+    const io::DxfFlattened flat = io::flattened(spline);
+    CHECK(flat.fault == "");
+    CHECK(!flat.closed);
+    const double diagonal = (Point2(320, 120) - Point2(0, -90)).norm();
+    const auto p = static_cast<std::size_t>(c.degree);
+    const double from = c.knots[p], to = c.knots[control.size()];
+    double farthest = 0;
+    for (int k = 0; k < 3000; ++k)
+      farthest = std::max(farthest,
+                          polygon_distance(flat.points, false, spline_point(spline, from + (to - from) * k / 3000)));
+    CHECK(farthest < io::kDxfFlatness * diagonal);
+    CHECK((flat.points.front() - spline_point(spline, from)).norm() < 1e-9);
+    CHECK((flat.points.back() - spline_point(spline, to - 1e-9)).norm() < 1e-5);
+    CHECK(flat.points.size() < 1500);
+  }
+  io::DxfSpline plain{3, false, {}, {}, control, {}};  // no knots: clamped and uniform
+  const io::DxfFlattened uniform = io::flattened(plain);
+  plain.knots = cases[0].knots;
+  CHECK(uniform.points == io::flattened(plain).points);
+}
+
+TEST_CASE("splines through fit points") {
+  const io::DxfFlattened three = io::flattened(io::DxfSpline{3, false, {}, {}, {}, {{0, 0}, {1, 1}, {2, 0}}});
+  // By hand: slopes 3/sqrt(8), 0 and -3/sqrt(8) of y over the chord's length.
+  CHECK(polygon_distance(three.points, false, {0.5, 0.6875}) < 3e-5);
+  CHECK(polygon_distance(three.points, false, {1.5, 0.6875}) < 3e-5);
+  CHECK(polygon_distance(three.points, false, {1, 1}) < 1e-12);
+  io::DxfSpline bent{3, false, {}, {}, {}, {{0, 0}, {100, 0}}};
+  bent.start = {0, 2}, bent.end = {0, -3};  // only their directions count: a cubic of the chord's length
+  const io::DxfFlattened arch = io::flattened(bent);
+  CHECK(polygon_distance(arch.points, false, {50, 25}) < 2e-3);
+  std::vector<Point2> round;
+  for (int k = 0; k < 24; ++k) round.emplace_back(100 * std::cos(k * M_PI / 12), 100 * std::sin(k * M_PI / 12));
+  const io::DxfFlattened ring = io::flattened(io::DxfSpline{3, true, {}, {}, {}, round});
+  CHECK(ring.closed);
+  CHECK(polygon(ring.points) == Approx(M_PI * 0.01).epsilon(1e-4));
+  for (const Point2& p : ring.points) CHECK(p.norm() == Approx(100).epsilon(1e-4));
+  for (const Point2& p : round) CHECK(polygon_distance(ring.points, true, p) < 1e-9);
+  round.push_back(round.front());  // stated twice, it is the same
+  CHECK(io::flattened(io::DxfSpline{3, true, {}, {}, {}, round}).points == ring.points);
+}
+
+TEST_CASE("an ellipse and its parts") {
+  const io::DxfFlattened whole = io::flattened(io::DxfEllipse{{50, 20}, {30, 40}, 0.4});
+  CHECK(whole.closed);
+  CHECK(polygon(whole.points) == Approx(M_PI * 50 * 20 * 1e-6).epsilon(1e-4));
+  for (bool flipped : {false, true}) {
+    const io::DxfFlattened part = io::flattened(io::DxfEllipse{{0, 0}, {2, 0}, 0.5, -0.5, 2, flipped});
+    CHECK(!part.closed);
+    const double sense = flipped ? -1 : 1;
+    CHECK((part.points.front() - Point2(2 * std::cos(0.5), -sense * std::sin(0.5))).norm() < 1e-12);
+    CHECK((part.points.back() - Point2(2 * std::cos(2), sense * std::sin(2))).norm() < 1e-12);
+    for (const Point2& p : part.points) CHECK(p.x() * p.x() / 4 + p.y() * p.y() == Approx(1).epsilon(1e-9));
+    for (int k = 0; k <= 1000; ++k) {
+      const double t = -0.5 + 2.5 * k / 1000;
+      CHECK(polygon_distance(part.points, false, {2 * std::cos(t), sense * std::sin(t)}) < 5e-5);
+    }
+  }
+}
+
+TEST_CASE("pieces with splines, ellipses and bulges, seen from the front and from behind") {
+  auto spline = [](Draft& d, const std::string& layer, const std::vector<Point2>& control,
+                   const std::vector<double>& weights) {
+    d.entity("SPLINE", layer).pair(70, "12").pair(71, "2").pair(72, "6").pair(73, "3");
+    for (double knot : {0, 0, 0, 1, 1, 1}) d.number(40, knot);
+    for (double w : weights) d.number(41, w);
+    for (const Point2& p : control) d.at(10, p).number(30, 0);
+  };
+  // A square of 200 mm with a quarter disc at each end: an exact rational quadratic, and the same as an ellipse.
+  const double quarter = M_PI * 0.04 / 4;
+  const io::DxfResult result = dxf_of(style([&](Draft& d) {
+    d.block("A").lines("1", {{0, 200}, {0, 0}, {200, 0}}, false);
+    d.text.resize(d.text.rfind("LINE") - 2);  // without the line that would close it
+    spline(d, "1", {{200, 0}, {400, 0}, {400, 200}}, {1, std::sqrt(0.5), 1});
+    d.entity("LINE", "1").at(10, {400, 200}).at(11, {0, 200});
+    d.entity("ELLIPSE", "11").at(10, {120, 100}).at(11, {40, 0}).number(40, 0.5).number(41, 0).number(42, 2 * M_PI);
+    d.end_block();
+    d.block("B").entity("LWPOLYLINE", "1").pair(90, "2").pair(70, "1");
+    d.at(10, {0, 0}).number(42, 1).at(10, {200, 0}).number(42, 0.5).end_block();
+  }));
+  const design::Panel& panel = garment_of(result).panels.at(0);
+  CHECK(area(panel) == Approx(0.04 + quarter).epsilon(1e-4));
+  CHECK(panel.edges.size() == 4);
+  REQUIRE(panel.holes.size() == 1);
+  double hole = 0;
+  for (const design::Edge& edge : panel.hole_edges) hole += edge.curve.area_term();
+  CHECK(std::fabs(hole) == Approx(M_PI * 0.04 * 0.02).epsilon(1e-3));
+  // A half disc, and the segment of an arc that turns by 4 atan 1/2.
+  const double angle = 4 * std::atan(0.5), r = 0.1 / std::sin(angle / 2);
+  CHECK(area(result.garment->panels.at(1)) ==
+        Approx(M_PI * 0.01 / 2 + r * r / 2 * (angle - std::sin(angle))).epsilon(1e-6));
+  CHECK(result.findings.empty());
+
+  // Seen from behind, what has a plane of its own is mirrored; lines, splines and ellipses are not.
+  const std::vector<std::function<void(Draft&)>> ways{
+      [](Draft& d) { d.entity("ARC", "1").at(10, {-100, 0}).number(40, 100).number(50, 0).number(51, 90).number(230, -1); },
+      [](Draft& d) {
+        d.entity("LWPOLYLINE", "1").pair(90, "2").pair(70, "0").number(230, -1);
+        d.at(10, {0, 0}).number(42, std::tan(M_PI / 8)).at(10, {-100, 100});
+      },
+      [](Draft& d) {
+        d.entity("ELLIPSE", "1").at(10, {100, 0}).at(11, {100, 0}).number(40, 1).number(41, -M_PI).number(42, -M_PI / 2);
+        d.number(230, -1);
+      },
+      [&](Draft& d) {
+        spline(d, "1", {{0, 0}, {0, 100}, {100, 100}}, {1, std::sqrt(0.5), 1});
+        d.number(230, -1);
+      },
+      [](Draft& d) {  // an arc in a block that is turned round
+        d.pair(0, "INSERT").pair(8, "1").pair(2, "PART").at(10, {-100, 0}).number(230, -1);
+      },
+  };
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    INFO("way " << i);
+    const io::DxfResult turned = dxf_of(style([&](Draft& d) {
+      if (i + 1 == ways.size())
+        d.block("PART").entity("ARC", "1").at(10, {0, 0}).number(40, 100).number(50, 0).number(51, 90).end_block();
+      d.block("A").lines("1", {{100, 100}, {300, 100}, {300, 0}, {0, 0}}, false);
+      d.text.resize(d.text.rfind("LINE") - 2);
+      ways[i](d);
+      d.end_block();
+    }));
+    // The arc runs on smoothly into a line: both are one edge, fitted by a spline.
+    CHECK(area(garment_of(turned).panels.at(0)) == Approx(0.02 + M_PI * 0.01 / 4).epsilon(5e-4));
+    CHECK(turned.findings.empty());
+  }
+}
+
+TEST_CASE("entities that are not read are told with their numbers") {
+  const io::DxfResult result = dxf_of(style([](Draft& d) {
+    d.block("A").polyline("1", front(), true);
+    for (int k = 0; k < 3; ++k) d.entity("HATCH", "8").at(10, {10, 10}).number(40, 1);
+    d.entity("DIMENSION", "8").at(10, {10, 10}).end_block();
+  }));
+  garment_of(result);
+  REQUIRE(result.findings.size() == 1);
+  CHECK(result.findings[0].code == "G0969");
+  CHECK(result.findings[0].severity == Severity::warning);
+  CHECK(result.findings[0].message.find("4 entities") != std::string::npos);
+  CHECK(result.findings[0].message.find("1 `DIMENSION`, 3 `HATCH`") != std::string::npos);
+  struct Case {
+    std::function<void(Draft&)> draw;
+    const char* words;
+  };
+  const std::vector<Case> cases{
+      {[](Draft& d) { d.pair(71, "3").at(10, {0, 0}).at(10, {50, 50}); }, "2 control points"},
+      {[](Draft& d) { d.pair(71, "1").number(40, 0).at(10, {0, 0}).at(10, {50, 50}); }, "1 knots, expected 4"},
+      {[](Draft& d) { d.pair(71, "1").number(41, -1).number(41, 1).at(10, {0, 0}).at(10, {50, 50}); }, "not positive"},
+      {[](Draft& d) { d.pair(71, "0").at(10, {0, 0}).at(10, {50, 50}); }, "degree 0"},
+      {[](Draft& d) { d.pair(71, "3").at(11, {0, 0}); }, "1 fit points"},
+  };
+  for (const Case& c : cases) {
+    const io::DxfResult bad = dxf_of(style([&](Draft& d) {
+      d.block("A").polyline("1", front(), true).entity("SPLINE", "8");
+      c.draw(d);
+      d.end_block();
+    }));
+    INFO(c.words << "\n" << pattern_test::all_messages(bad.findings));
+    CHECK(garment_of(bad).panels.size() == 1);
+    CHECK(pattern_test::has_code(bad.findings, "G0969"));
+    CHECK(pattern_test::all_messages(bad.findings).find(c.words) != std::string::npos);
+  }
+  io::DxfOptions small;  // points that a curve is made of count too
+  small.limits.max_points = 60;
+  const std::string much = style([](Draft& d) {
+    d.block("A").entity("ELLIPSE", "1").at(10, {0, 0}).at(11, {200, 0}).number(40, 0.5).number(41, 0).number(42, 6.28).end_block();
+  });
+  CHECK(pattern_test::has_code(io::read_dxf(much, small).findings, "G0962"));
+  CHECK(!pattern_test::has_code(dxf_of(much).findings, "G0962"));
 }
 
 TEST_CASE("formatted text, grade rules, other layers, nested sizes") {

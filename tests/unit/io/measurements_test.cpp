@@ -87,13 +87,73 @@ TEST_CASE("a multisize file is graded by 2 cm of size and 6 cm of height") {
   CHECK(values(text)["bust_circ"] == Approx(1.044));
   CHECK(values(text, {0.54, std::nullopt})["bust_circ"] == Approx(1.12));
   CHECK(values(text, {0.48, 1.70})["bust_circ"] == Approx(1.004));
-  const std::string breaks =
-      "<vst><unit>cm</unit><size base=\"50\"/><height base=\"176\"/><body-measurements><m name=\"a\" "
-      "base=\"1\" "
-      "size_increase=\"1\" height_increase=\"0\"><sizeRules><break threshold=\"54\" "
-      "increase=\"2\"/></sizeRules></m>"
+}
+
+TEST_CASE("increments may change along the sizes and heights") {
+  const std::string text =
+      "<smms><unit>cm</unit><size base=\"50\"/><height base=\"176\"/><body-measurements>"
+      "<m name=\"a\" base=\"100\" size_increase=\"4\" height_increase=\"1\">"
+      "<sizeRules><break threshold=\"56\" increment=\"6\"/><break threshold=\"52\" increment=\"5\"/></sizeRules>"
+      "<heightRules><break threshold=\"182\" increment=\"0.5\"/></heightRules></m>"
+      "<m name=\"b\" base=\"100\" size_increase=\"4\" height_increase=\"1\"/></body-measurements></smms>";
+  auto a = [&](double size, double height) { return values(text, {size / 100, height / 100})["a"] * 100; };
+  CHECK(a(50, 176) == Approx(100));
+  CHECK(a(52, 176) == Approx(104));  // the step from 50
+  CHECK(a(54, 176) == Approx(109));  // and the one from 52
+  CHECK(a(60, 176) == Approx(100 + 4 + 5 + 5 + 6 + 6));
+  CHECK(a(53, 176) == Approx(106.5));  // half a step
+  CHECK(a(46, 176) == Approx(92));
+  CHECK(a(50, 188) == Approx(101.5));
+  CHECK(a(54, 170) == Approx(108));
+  CHECK(values(text, {0.60, 1.88})["b"] * 100 == Approx(122));
+  // Down from a base beyond a threshold: each step counts where it begins.
+  std::string large = text;
+  large.replace(large.find("base=\"50\""), 9, "base=\"56\"");
+  CHECK(values(large, {0.50, 1.76})["a"] * 100 == Approx(100 - 6 - 5 - 5));
+  CHECK(values(large, {0.48, 1.76})["a"] * 100 == Approx(100 - 6 - 5 - 5 - 4));
+  std::string wrong = text;
+  wrong.replace(wrong.find("increment=\"6\""), 13, "increase=\"6\" ");
+  refused(wrong, "G0721", "`increment` of <break> is ``, no number");
+  refused(text, "G0720", "more than 1000 steps", {100, std::nullopt});  // m
+  // Millimetres: thresholds and bases are in the unit of the file, steps are 2 cm and 6 cm all the same.
+  const std::string mm =
+      "<vst><unit>mm</unit><size base=\"500\"/><height base=\"1760\"/><body-measurements><m name=\"a\" base=\"1000\" "
+      "size_increase=\"40\" height_increase=\"0\"><sizeRules><break threshold=\"520\" increment=\"50\"/></sizeRules></m>"
       "</body-measurements></vst>";
-  refused(breaks, "G0720", "graded in breaks");
+  CHECK(values(mm, {0.54, std::nullopt})["a"] == Approx(1.09));
+}
+
+TEST_CASE("a file of Valentina with dimensions has steps of its own, and corrections") {
+  auto file = [](const std::string& dimensions, const std::string& unit = "cm") {
+    return "<vst>\n<version>0.6.2</version><unit>" + unit + "</unit>\n<dimensions>" + dimensions +
+           "</dimensions><restrictions/><body-measurements>\n"
+           "<m type=\"separator\" name=\"head\"/>"
+           "<m name=\"height\" base=\"176\" shiftA=\"6\"/>"
+           "<m name=\"bust_circ\" base=\"100\" shiftA=\"0.5\" shiftB=\"4\" shiftC=\"0.25\"><corrections>"
+           "<correction coordinates=\"176;54;94\" correction=\"0.75\"/><correction coordinates=\"176;52;94\" alias=\"M\"/>"
+           "</corrections></m>"
+           "<m name=\"slope\" base=\"20\" shiftB=\"1\" specialUnits=\"true\"/></body-measurements></vst>";
+  };
+  const std::string x = "<dimension type=\"x\" base=\"176\" min=\"158\" max=\"188\" step=\"6\"/>",
+                    y = "<dimension type=\"y\" base=\"50\" min=\"40\" max=\"60\" step=\"2\"/>",
+                    z = "<dimension type=\"z\" base=\"94\" min=\"80\" max=\"110\" step=\"4\"/>";
+  // The order in the file says nothing: shiftA is the height's.
+  for (const std::string& text : {file(x + y + z), file(z + y + x)}) {
+    CHECK(values(text).size() == 3);
+    CHECK(values(text)["bust_circ"] == Approx(1));
+    CHECK(values(text, {0.52, std::nullopt})["bust_circ"] == Approx(1.04));
+    CHECK(values(text, {0.54, std::nullopt})["bust_circ"] == Approx(1.0875));
+    CHECK(values(text, {0.54, 1.82})["bust_circ"] == Approx(1.085));
+    CHECK(values(text, {std::nullopt, 1.64})["height"] == Approx(1.64));
+    CHECK(values(text, {0.54, std::nullopt})["slope"] == Approx(22 * 3.14159265358979 / 180));
+  }
+  CHECK(values(file(y), {0.54, std::nullopt})["bust_circ"] == Approx(1.01));  // shiftA is the size's now
+  CHECK(values(file(y, "inch"))["bust_circ"] == Approx(2.54));
+  refused(file(y), "G0720", "not graded by height", {std::nullopt, 1.7});
+  refused(file(x), "G0720", "not graded by size", {0.5, std::nullopt});
+  refused(file(""), "G0720", "0 dimensions");
+  refused(file(x + y + z + "<dimension type=\"w\" base=\"98\" step=\"4\"/>"), "G0720", "4 dimensions");
+  refused(file("<dimension type=\"x\" base=\"tall\" step=\"6\"/>"), "G0721", "is `tall`, no number");
 }
 
 TEST_CASE("what is wrong is told with its line") {

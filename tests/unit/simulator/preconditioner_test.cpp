@@ -7,6 +7,7 @@
 #include <set>
 
 #include "runtime/base/parallel.hpp"
+#include "tests/support/dense_algebra.hpp"
 #include "tests/support/linear_case.hpp"
 
 namespace {
@@ -131,7 +132,7 @@ TEST_CASE("the block Cholesky solves like the dense one") {
       VectorXd rhs(6 * n);
       for (int k = 0; k < 6 * n; ++k) b[k / 6][k % 6] = rhs[k] = noise();
       cholesky.solve(b);
-      const VectorXd expected = a.ldlt().solve(rhs);
+      const VectorXd expected = test::solved(a, rhs);
       for (int k = 0; k < 6 * n; ++k) CHECK(b[k / 6][k % 6] == Approx(expected[k]).margin(1e-13));
     }
   }
@@ -174,8 +175,7 @@ TEST_CASE("the preconditioner is symmetric positive definite on what is free") {
     z = MatrixXd(z * projector);  // the argument of `apply` has to be filtered
     const double scale = z.cwiseAbs().maxCoeff();
     CHECK((z - z.transpose()).cwiseAbs().maxCoeff() < 1e-5 * scale);
-    const VectorXd eigenvalues =
-        Eigen::SelfAdjointEigenSolver<MatrixXd>(MatrixXd((z + z.transpose()) / 2)).eigenvalues();
+    const VectorXd eigenvalues = test::eigenvalues((z + z.transpose()) / 2);
     // Seven directions are held; the others are positive.
     CHECK(eigenvalues.head<7>().cwiseAbs().maxCoeff() < 1e-6 * scale);
     CHECK(eigenvalues[7] > 1e-8 * scale);
@@ -196,8 +196,7 @@ TEST_CASE("rigid pieces bring the condition number down") {
     p.factor(c.matrix, with_positions ? &c.x : nullptr);
     const MatrixXd z = dense(p, c.x.size())(free, free);
     const MatrixXd similar = root.matrixL().transpose() * z * MatrixXd(root.matrixL());
-    const VectorXd e =
-        Eigen::SelfAdjointEigenSolver<MatrixXd>(MatrixXd((similar + similar.transpose()) / 2)).eigenvalues();
+    const VectorXd e = test::eigenvalues((similar + similar.transpose()) / 2);
     condition[with_positions] = e[e.size() - 1] / e[0];
   }
   CAPTURE(condition[0], condition[1]);
