@@ -158,6 +158,7 @@ void Clearing::apply(const std::vector<Push>& pushes) {
     x_[i] += moved_[i] - before[i];
     if (weight[i] > 0) keep_side(i);
   }
+  drop_last_bits(x_);
 }
 
 /// A particle is one leg's cloth where all its panels lie left, or right, of the middle.
