@@ -157,8 +157,8 @@ void Clearing::apply(const std::vector<Push>& pushes) {
   for (std::size_t i = 0; i < x_.size(); ++i) {
     x_[i] += moved_[i] - before[i];
     if (weight[i] > 0) keep_side(i);
+    if (moved_[i] != before[i]) drop_last_bits(x_[i]);
   }
-  drop_last_bits(x_);
 }
 
 /// A particle is one leg's cloth where all its panels lie left, or right, of the middle.

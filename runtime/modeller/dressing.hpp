@@ -54,12 +54,11 @@ void part_panels(const design::Garment& garment, const model::Model& model,
 void spread_seams(const design::Garment& garment, const model::Model& model, const std::vector<bool>& placed,
                   const std::vector<std::pair<model::Index, Eigen::Vector3d>>& wanted, std::vector<Eigen::Vector3d>& place);
 
-/// Rounds places to 1e-9 m. Sums over neighbours follow the order in which panels are declared; what is decided by their last bits
-/// must not.
-inline void drop_last_bits(std::vector<Eigen::Vector3d>& places) {
+/// Rounds a place that was moved to 1e-9 m. Sums over neighbours follow the order in which panels are declared; what is decided by
+/// their last bits must not.
+inline void drop_last_bits(Eigen::Vector3d& place) {
   constexpr double kPlaces = 1 << 30;  // in a metre
-  for (Eigen::Vector3d& p : places)
-    for (double& x : p) x = std::round(x * kPlaces) / kPlaces;
+  for (double& x : place) x = std::round(x * kPlaces) / kPlaces;
 }
 
 /// Moves particles and edges of `model.start` that pierce a person out of it (clearing.hpp). Returns how many places

@@ -157,7 +157,7 @@ std::size_t take_apart(const std::vector<body::Body>& bodies, const std::vector<
   for (int round = 0, fruitless = 0; fewest > 0 && round < kMostRounds && fruitless < kMostFruitless; ++round) {
     const std::vector<Index> particles = smoothing.around(crossings, kLeastRings + round / kRoundsARing);
     smoothing.smooth(particles, kKeptLength * std::max(0.0, 1 - round / kRoundsOfLength), model.start);
-    drop_last_bits(model.start);
+    for (Index i : particles) drop_last_bits(model.start[i]);
     std::size_t pierced = 0;
     for (Clearing& clearing : clearings) pierced += clearing.go();
     crossings = surface.crossings(model.start);

@@ -338,7 +338,6 @@ void average_shared(const std::vector<Vector3d>& place, model::Model& model) {
   }
   for (std::size_t i = 0; i < model.n_particles(); ++i)
     if (count[i] > 1) model.start[i] /= count[i];
-  drop_last_bits(model.start);
 }
 
 }  // namespace
