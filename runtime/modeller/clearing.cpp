@@ -186,6 +186,10 @@ void Clearing::keep_side(std::size_t i) {
   moved_[i].x() += side_[i] * over;
 }
 
+bool starts_inside(const body::Body& body, model::Model& model) {
+  return !body.parts.empty() && !body.mesh.triangles.empty() && Clearing(body, model).pierced() > 0;
+}
+
 std::size_t clear_start(const body::Body& body, model::Model& model) {
   if (body.parts.empty() || body.mesh.triangles.empty()) return 0;
   return Clearing(body, model).go();

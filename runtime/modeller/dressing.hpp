@@ -65,6 +65,9 @@ inline void drop_last_bits(Eigen::Vector3d& place) {
 /// still pierce it. Persons only: a body without parts changes nothing.
 std::size_t clear_start(const body::Body& body, model::Model& model);
 
+/// Does the start pierce a person?
+bool starts_inside(const body::Body& body, model::Model& model);
+
 /// Does cloth cross cloth in `model.start`, panels that are `left_out` [n_panels] apart?
 bool crosses(const model::Model& model, const std::vector<bool>& left_out);
 

@@ -340,6 +340,16 @@ void average_shared(const std::vector<Vector3d>& place, model::Model& model) {
     if (count[i] > 1) model.start[i] /= count[i];
 }
 
+/// Brings the start out of the bodies. Panels that all lie on bodies are out already, but for what seams pull in: where that does not
+/// come out whole it stays as it is, for a cloth that hangs through half a body would be torn to pieces.
+void clear_bodies(const std::vector<body::Body>& bodies, bool any_rigid, model::Model& model) {
+  const std::vector<Vector3d> as_placed = model.start;
+  std::size_t pierced = 0;
+  for (const body::Body& b : bodies)
+    if (any_rigid || starts_inside(b, model)) pierced += clear_start(b, model);
+  if (pierced > 0 && !any_rigid) model.start = as_placed;
+}
+
 }  // namespace
 
 bool place_panels(const design::Garment& garment, const std::vector<body::Body>& bodies, model::Model& model,
@@ -375,8 +385,7 @@ bool place_panels(const design::Garment& garment, const std::vector<body::Body>&
   ok = ok && place_from_seams(w);
   if (spread && ok) spread_seams(garment, model, w.done, {}, w.place);
   average_shared(w.place, model);
-  if (dress && any_rigid && ok)
-    for (const body::Body& b : bodies) clear_start(b, model);
+  if (dress && any_person && ok) clear_bodies(bodies, any_rigid, model);
   if (dress && any_person && ok) part_cloth(w, model);
   return ok;
 }
