@@ -128,6 +128,7 @@ void interpret_golden(GoldenOutcome& o, const std::string& path, grammar::Source
   modeller::ModelResult built;
   if (stage == GoldenStage::check) built.findings = modeller::find_unmodelled(result.garment, Severity::warning);
   if (built.findings.empty()) built = modeller::build_model(result.garment, result.bodies);
+  interpreter::leave_out_starts(built.findings, result.acts);
   if (!study || !built.model) add(o.diagnostics, interpreter::to_diagnostics(built.findings, result.origins));
   if (built.model && stage == GoldenStage::model) o.text = model::summary_text(*built.model);
   if (built.model && stage == GoldenStage::run && !has_error(o.diagnostics, first)) {

@@ -12,6 +12,7 @@
 #include "grammar/syntax_tree.hpp"
 #include "interpreter/language/curve_questions.hpp"
 #include "interpreter/language/origins.hpp"
+#include "runtime/base/finding.hpp"
 #include "runtime/base/host.hpp"
 #include "runtime/body/body.hpp"
 #include "runtime/design/garment.hpp"
@@ -90,6 +91,9 @@ struct Act {
   std::variant<DrapeAct, ExpectAct, SaveAct, MeasureAct, ReleaseAct, RecordAct, VaryAct> act;
   grammar::Span span;
 };
+
+/// Takes out what only a drape minds: that cloth starts through cloth (G0608) where the script drapes nothing. Patterns may lie piled up.
+void leave_out_starts(Findings& findings, const std::vector<Act>& acts);
 
 struct Parameter {
   std::string name, doc, value, standard;  ///< value and default as text

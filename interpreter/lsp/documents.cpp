@@ -200,7 +200,8 @@ void Documents::check_model(Document& document) {
       if (built.body) bodies.push_back(std::move(*built.body));
     }
     if (bodies.size() == result.garment.bodies.size()) {
-      const Findings more = modeller::build_model(result.garment, bodies).findings;
+      Findings more = modeller::build_model(result.garment, bodies).findings;
+      interpreter::leave_out_starts(more, result.acts);
       findings.insert(findings.end(), more.begin(), more.end());
     }
   }

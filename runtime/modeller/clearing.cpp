@@ -157,6 +157,7 @@ void Clearing::apply(const std::vector<Push>& pushes) {
   for (std::size_t i = 0; i < x_.size(); ++i) {
     x_[i] += moved_[i] - before[i];
     if (weight[i] > 0) keep_side(i);
+    if (moved_[i] != before[i]) drop_last_bits(x_[i]);
   }
 }
 
@@ -183,6 +184,10 @@ void Clearing::keep_side(std::size_t i) {
   if (side_[i] == 0 || over <= 0 || x_[i].y() > top_) return;
   x_[i].x() += side_[i] * over;
   moved_[i].x() += side_[i] * over;
+}
+
+bool starts_inside(const body::Body& body, model::Model& model) {
+  return !body.parts.empty() && !body.mesh.triangles.empty() && Clearing(body, model).pierced() > 0;
 }
 
 std::size_t clear_start(const body::Body& body, model::Model& model) {

@@ -18,6 +18,9 @@ class Clearing {
   /// a leg, away from the leg's middle; neighbours follow smoothly. Returns how many places still pierce it.
   std::size_t go();
 
+  /// How many places pierce the body as they lie.
+  std::size_t pierced() { return find(0).size(); }
+
  private:
   /// A point of a triangle, by its weights, and the way it has to go.
   struct Push {

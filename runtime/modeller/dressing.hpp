@@ -1,6 +1,8 @@
 #pragma once
 // Patterns drawn flat in space are brought nearer to the body they are worn on: sleeves to the arms, hoods
 // behind the head, panels out of the body, and seams, which lie at the mean of the panels they join, off it.
+#include <cmath>
+#include <utility>
 #include <vector>
 
 #include "runtime/body/body.hpp"
@@ -45,15 +47,26 @@ void clear_panels(const design::Garment& garment, const body::Body& body, const 
 void part_panels(const design::Garment& garment, const model::Model& model,
                  std::vector<Eigen::Vector3d>& place);
 
-/// Seams bring their particles to the mean of the places of their panels; here the rest of each rigidly
-/// placed panel follows, less the farther it lies from the seam (about 8 cm), so that no row of cells takes
-/// the whole way.
-void spread_seams(const design::Garment& garment, const model::Model& model,
-                  std::vector<Eigen::Vector3d>& place);
+/// Seams bring their particles to the mean of the places of their panels, here of those that are `placed` [n_panels]: so are their
+/// vertices, and the rest of each rigidly placed panel follows, less the farther it lies from the seam (about 8 cm), so that no row
+/// of cells takes the whole way. Panels wrapped round the torso follow near the seams with panels that have no place yet, which go
+/// on from there: a neckline. Particles that are `wanted` elsewhere are brought there.
+void spread_seams(const design::Garment& garment, const model::Model& model, const std::vector<bool>& placed,
+                  const std::vector<std::pair<model::Index, Eigen::Vector3d>>& wanted, std::vector<Eigen::Vector3d>& place);
+
+/// Rounds a place that was moved to 1e-9 m. Sums over neighbours follow the order in which panels are declared; what is decided by
+/// their last bits must not.
+inline void drop_last_bits(Eigen::Vector3d& place) {
+  constexpr double kPlaces = 1 << 30;  // in a metre
+  for (double& x : place) x = std::round(x * kPlaces) / kPlaces;
+}
 
 /// Moves particles and edges of `model.start` that pierce a person out of it (clearing.hpp). Returns how many places
 /// still pierce it. Persons only: a body without parts changes nothing.
 std::size_t clear_start(const body::Body& body, model::Model& model);
+
+/// Does the start pierce a person?
+bool starts_inside(const body::Body& body, model::Model& model);
 
 /// Does cloth cross cloth in `model.start`, panels that are `left_out` [n_panels] apart?
 bool crosses(const model::Model& model, const std::vector<bool>& left_out);

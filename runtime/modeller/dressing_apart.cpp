@@ -26,6 +26,7 @@ constexpr int kWidenings = 2;           // after each of them
 constexpr double kKeptLength = 0.7;    // that edges keep in the first round, of their length at rest
 constexpr double kRoundsOfLength = 24;  // over which that falls to nothing: what does not come apart otherwise may shrink
 constexpr double kNoLength = 1e-9;      // m, an edge without a direction
+constexpr double kHardlyShort = 0.01;   // of its length
 constexpr std::size_t kMostPairs = 20'000;
 
 /// Triangles of the panels that are not left out, by vertices and by particles.
@@ -112,17 +113,19 @@ class Smoothing {
     for (std::size_t k = 0; k < particles.size(); ++k) x[particles[k]] += steps[k];
   }
 
+  /// The mean of what its short edges ask for; edges that are hardly short count less, so that it does not jump.
   Vector3d widening(Index i, double least, const std::vector<Vector3d>& x) const {
     Vector3d sum = Vector3d::Zero();
-    int n = 0;
+    double weights = 0;
     for (std::size_t e = 0; e < neighbours_[i].size(); ++e) {
       const Vector3d edge = x[i] - x[neighbours_[i][e]];
       const double length = edge.norm(), wanted = least * rest_[i][e];
       if (length >= wanted || length < kNoLength) continue;
-      sum += 0.5 * (wanted / length - 1) * edge;
-      ++n;
+      const double weight = std::min(1.0, (wanted / length - 1) / kHardlyShort);
+      sum += weight * 0.5 * (wanted / length - 1) * edge;
+      weights += weight;
     }
-    return n > 0 ? Vector3d(sum / n) : sum;
+    return weights > 0 ? Vector3d(sum / weights) : sum;
   }
 
   const Surface& surface_;
@@ -154,6 +157,7 @@ std::size_t take_apart(const std::vector<body::Body>& bodies, const std::vector<
   for (int round = 0, fruitless = 0; fewest > 0 && round < kMostRounds && fruitless < kMostFruitless; ++round) {
     const std::vector<Index> particles = smoothing.around(crossings, kLeastRings + round / kRoundsARing);
     smoothing.smooth(particles, kKeptLength * std::max(0.0, 1 - round / kRoundsOfLength), model.start);
+    for (Index i : particles) drop_last_bits(model.start[i]);
     std::size_t pierced = 0;
     for (Clearing& clearing : clearings) pierced += clearing.go();
     crossings = surface.crossings(model.start);

@@ -12,7 +12,7 @@
 #include "runtime/modeller/dressing.hpp"
 #include "runtime/modeller/flat_start.hpp"
 #include "runtime/modeller/placement_carry.hpp"
-#include "runtime/modeller/placement_lay.hpp"
+#include "runtime/modeller/placement_layers.hpp"
 #include "runtime/modeller/wrap_curve.hpp"
 
 namespace garment::modeller {
@@ -25,23 +25,6 @@ struct Extent {
   Vector2d low{1e300, 1e300}, high{-1e300, -1e300};
   double width() const { return high.x() - low.x(); }
 };
-
-/// What the steps of a placement share. `place` holds a position per vertex; `done` says per panel whether it has one.
-struct Workspace {
-  const design::Garment& garment;
-  const std::vector<body::Body>& bodies;
-  const model::Model& model;
-  Findings& findings;
-  std::vector<Vector3d> place;
-  std::vector<bool> done;
-  std::vector<Vector3d> flat;  ///< of every vertex: where it lies in its panel when the pleats are folded, and above it, m
-};
-
-template <class F>
-void for_each_vertex(const model::Model& model, std::size_t panel, const F& f) {
-  const model::PanelRange& range = model.panels[panel];
-  for (model::Index v = range.first_vertex; v < range.first_vertex + range.n_vertices; ++v) f(v);
-}
 
 Extent extent_of(const Workspace& w, std::size_t panel) {
   Extent e;
@@ -313,17 +296,6 @@ void place_rigid(Workspace& w, std::size_t panel) {
   w.done[panel] = true;
 }
 
-/// Lays a panel on the placed one that it is said to lie over or under; true where there was one.
-bool lay_on_others(Workspace& w) {
-  for (const design::Stacking& s : w.garment.stackings) {
-    if (w.done[s.panel] || !w.done[s.other]) continue;
-    const double gap = std::max(layer_gap(w.garment, s.panel), layer_gap(w.garment, s.other));
-    if (!lay_panel(w.model, s.panel, s.other, w.flat, s.over ? gap : -gap, w.place)) continue;
-    return w.done[s.panel] = true;
-  }
-  return false;
-}
-
 /// Panels without a stated place are carried on from the panels they are sewn to, those with the longest seam first.
 bool place_from_seams(Workspace& w) {
   bool any_placed = std::find(w.done.begin(), w.done.end(), true) != w.done.end();
@@ -338,10 +310,11 @@ bool place_from_seams(Workspace& w) {
     for (std::size_t i = 0; i < w.done.size(); ++i) {
       if (w.done[i]) continue;
       std::size_t shared = count_shared_particles(w.model, i, w.done);
-      if (shared > most) most = shared, best = i;
+      const bool as_many = best && shared == most && w.garment.panels[i].name < w.garment.panels[*best].name;
+      if (shared > most || as_many) most = shared, best = i;
     }
     if (!best) break;
-    carry_panel(w.model, *best, w.flat, w.done, w.place);
+    if (!carry_stand(w, *best)) carry_panel(w.model, *best, w.flat, w.done, w.place);
     w.done[*best] = true;
   }
   bool ok = true;
@@ -367,59 +340,14 @@ void average_shared(const std::vector<Vector3d>& place, model::Model& model) {
     if (count[i] > 1) model.start[i] /= count[i];
 }
 
-/// Of the grid's spacing, between layers that lie over each other where both are bent: their triangles do not coincide.
-constexpr double kGapOfGrid = 0.5;
-
-/// Panels that lie on others and share seams with them.
-std::vector<bool> laid_panels(const Workspace& w) {
-  std::vector<bool> laid(w.garment.panels.size(), false);
-  for (const design::Stacking& s : w.garment.stackings) {
-    std::vector<bool> other(laid.size(), false);
-    other[s.other] = !laid[s.other];
-    if (count_shared_particles(w.model, s.panel, other) > 1) laid[s.panel] = true;
-  }
-  return laid;
-}
-
-/// Lays on the others anew the panels among `again` [n_panels] whose other has moved from `before` [n_particles], and, with
-/// more room, those that have a place of their own.
-void lay_again(Workspace& w, const std::vector<bool>& again, const std::vector<Vector3d>& before, model::Model& model) {
-  for (std::size_t v = 0; v < model.n_vertices(); ++v) w.place[v] = model.start[model.vertex_particle[v]];
-  std::vector<bool> held(model.n_particles(), false);
-  for (std::size_t v = 0; v < model.n_vertices(); ++v)
-    if (!again[model.vertex_panel[v]]) held[model.vertex_particle[v]] = true;
-  for (const design::Stacking& s : w.garment.stackings) {
-    if (!again[s.panel]) continue;
-    const bool own = w.garment.panels[s.panel].placement.kind != Placement::Kind::none;
-    bool moved = own;
-    for_each_vertex(w.model, s.other, [&](model::Index v) {
-      moved = moved || model.start[model.vertex_particle[v]] != before[model.vertex_particle[v]];
-    });
-    double gap = std::max(layer_gap(w.garment, s.panel), layer_gap(w.garment, s.other));
-    if (own) gap = std::max(gap, kGapOfGrid * w.garment.panels[s.panel].resolution);
-    if (!moved || !lay_panel(w.model, s.panel, s.other, w.flat, s.over ? gap : -gap, w.place)) continue;
-    for_each_vertex(w.model, s.panel, [&](model::Index v) {
-      if (!held[model.vertex_particle[v]]) model.start[model.vertex_particle[v]] = w.place[v];
-      held[model.vertex_particle[v]] = true;
-    });
-  }
-}
-
-/// Takes apart what crosses: first the panels that lie on no other, then, with the others laid on them anew, linings too. What
-/// has its place from another panel alone is left as it lies: a collar that was smoothed would not stay turned over.
-void part_cloth(Workspace& w, model::Model& model) {
-  const std::vector<bool> laid = laid_panels(w);
-  if (std::find(laid.begin(), laid.end(), true) == laid.end()) {
-    take_apart(w.bodies, laid, model);
-    return;
-  }
-  std::vector<bool> left_out = laid;
-  for (std::size_t p = 0; p < laid.size(); ++p)
-    left_out[p] = laid[p] && w.garment.panels[p].placement.kind == Placement::Kind::none;
-  const std::vector<Vector3d> before = model.start;
-  take_apart(w.bodies, laid, model);
-  if (model.start != before || crosses(model, left_out)) lay_again(w, laid, before, model);
-  take_apart(w.bodies, left_out, model);
+/// Brings the start out of the bodies. Panels that all lie on bodies are out already, but for what seams pull in: where that does not
+/// come out whole it stays as it is, for a cloth that hangs through half a body would be torn to pieces.
+void clear_bodies(const std::vector<body::Body>& bodies, bool any_rigid, model::Model& model) {
+  const std::vector<Vector3d> as_placed = model.start;
+  std::size_t pierced = 0;
+  for (const body::Body& b : bodies)
+    if (any_rigid || starts_inside(b, model)) pierced += clear_start(b, model);
+  if (pierced > 0 && !any_rigid) model.start = as_placed;
 }
 
 }  // namespace
@@ -449,12 +377,15 @@ bool place_panels(const design::Garment& garment, const std::vector<body::Body>&
       if (dress) clear_panels(garment, b, model, w.place);
     }
   if (any_rigid && any_person) part_panels(garment, model, w.place);
+  const bool spread = dress && any_rigid && any_person;
+  if (spread && ok) {  // what is carried on goes on from there
+    spread_seams(garment, model, w.done, {}, w.place);
+    if (const auto necklines = even_necklines(w); !necklines.empty()) spread_seams(garment, model, w.done, necklines, w.place);
+  }
   ok = ok && place_from_seams(w);
-  if (dress && any_rigid && any_person && ok)
-    spread_seams(garment, model, w.place);
+  if (spread && ok) spread_seams(garment, model, w.done, {}, w.place);
   average_shared(w.place, model);
-  if (dress && any_rigid && ok)
-    for (const body::Body& b : bodies) clear_start(b, model);
+  if (dress && any_person && ok) clear_bodies(bodies, any_rigid, model);
   if (dress && any_person && ok) part_cloth(w, model);
   return ok;
 }

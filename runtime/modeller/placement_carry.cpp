@@ -1,6 +1,7 @@
 #include "runtime/modeller/placement_carry.hpp"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <map>
 #include <optional>
 
@@ -13,6 +14,8 @@ using Eigen::Vector3d;
 using model::Index;
 using Matrix32 = Eigen::Matrix<double, 3, 2>;
 
+constexpr double kNearer = 1 - 1e-9;  // by which a distance counts as less: the last bits decide nothing
+
 /// A particle that both the new panel and placed ones hold, seen from both.
 struct Shared {
   Index here;                 ///< vertex id in the new panel
@@ -24,6 +27,12 @@ std::vector<Shared> shared_vertices(const model::Model& model, std::size_t panel
   std::map<Index, std::vector<Index>> placed_vertices;
   for (std::size_t v = 0; v < model.n_vertices(); ++v)
     if (placed[model.vertex_panel[v]]) placed_vertices[model.vertex_particle[v]].push_back(static_cast<Index>(v));
+  // In an order that does not depend on that of the panels.
+  for (auto& [particle, vertices] : placed_vertices)
+    std::sort(vertices.begin(), vertices.end(), [&](Index a, Index b) {
+      const Index p = model.vertex_panel[a], q = model.vertex_panel[b];
+      return p != q ? model.panels[p].name < model.panels[q].name : a < b;
+    });
   std::vector<Shared> shared;
   const model::PanelRange& range = model.panels[panel];
   for (Index v = range.first_vertex; v < range.first_vertex + range.n_vertices; ++v)
@@ -89,13 +98,13 @@ void carry_panel(const model::Model& model, std::size_t panel, const std::vector
     for (std::size_t j = 0; j < shared.size(); ++j) {
       if (j == i) continue;
       const Vector2d here = flat_at(shared[j].here) - flat_at(shared[i].here);
-      if (here.norm() >= nearest || here.norm() < 1e-9) continue;
+      if (here.norm() >= kNearer * nearest || here.norm() < 1e-9) continue;
       double shortest = 1e300;
       for (Index a : shared[i].places)
         for (Index b : shared[j].places) {
           if (model.vertex_panel[a] != model.vertex_panel[b]) continue;
           const Vector2d there = model.vertex_uv[b] - model.vertex_uv[a];
-          if (there.norm() >= shortest || there.norm() < 1e-9) continue;
+          if (there.norm() >= kNearer * shortest || there.norm() < 1e-9) continue;
           shortest = there.norm();
           nearest = here.norm();
           shared[i].there = a;
@@ -107,7 +116,7 @@ void carry_panel(const model::Model& model, std::size_t panel, const std::vector
   for (Index v = range.first_vertex; v < range.first_vertex + range.n_vertices; ++v) {
     std::size_t best = 0;
     for (std::size_t i = 1; i < shared.size(); ++i)
-      if ((flat_at(v) - flat_at(shared[i].here)).squaredNorm() < (flat_at(v) - flat_at(shared[best].here)).squaredNorm())
+      if ((flat_at(v) - flat_at(shared[i].here)).norm() < kNearer * (flat_at(v) - flat_at(shared[best].here)).norm())
         best = i;
     Vector2d off = turn[best] * (flat_at(v) - flat_at(shared[best].here));
     const Matrix32& plane = gradient[shared[best].there];

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <map>
+#include <optional>
 
 #include "runtime/model/flat_index.hpp"
 
@@ -39,10 +40,16 @@ Motion best_motion(const std::vector<Vector2d>& here, const std::vector<Vector2d
   return motion;
 }
 
-}  // namespace
+/// How one panel comes onto another one in their patterns.
+struct Fit {
+  Motion motion;
+  bool turned = false;     ///< face down
+  Index on = 0, beside = 0;  ///< vertices on the other one, and outside of it
+};
 
-bool lay_panel(const model::Model& model, std::size_t panel, std::size_t other, const std::vector<Vector3d>& flat_shape, double gap,
-               std::vector<Vector3d>& place) {
+/// None where they share fewer than two particles.
+std::optional<Fit> fit(const model::Model& model, std::size_t panel, std::size_t other, const std::vector<Vector3d>& flat_shape,
+                       const model::FlatIndex& flat) {
   auto own = [&](Index v) -> Vector2d { return flat_shape[v].head<2>(); };
   std::map<Index, Index> of_other;  // particle to vertex
   const model::PanelRange &range = model.panels[panel], &under = model.panels[other];
@@ -53,11 +60,10 @@ bool lay_panel(const model::Model& model, std::size_t panel, std::size_t other, 
       here.push_back(own(v));
       there.push_back(model.vertex_uv[shared->second]);
     }
-  if (here.size() < 2) return false;
+  if (here.size() < 2) return std::nullopt;
   const Motion plain = best_motion(here, there, false), over = best_motion(here, there, true);
-  const model::FlatIndex flat(model, static_cast<Index>(other));
   auto lies_on = [&](const Motion& motion) {  // vertices
-    int n = 0;
+    Index n = 0;
     std::array<double, 3> weights{};
     for (Index v = range.first_vertex; v < range.first_vertex + range.n_vertices; ++v)
       n += flat.locate(motion(own(v)), weights) >= 0 && *std::min_element(weights.begin(), weights.end()) > -1e-6;
@@ -65,17 +71,52 @@ bool lay_panel(const model::Model& model, std::size_t panel, std::size_t other, 
   };
   // A straight seam fits both ways: then the panel lies where there is more cloth under it.
   const double same = 1e-8 * static_cast<double>(here.size());  // m^2, a tenth of a millimetre each
-  const bool turned = std::abs(plain.error - over.error) < same ? lies_on(over) > lies_on(plain) : over.error < plain.error;
-  const Motion& motion = turned ? over : plain;
+  Fit found;
+  found.turned = std::abs(plain.error - over.error) < same ? lies_on(over) > lies_on(plain) : over.error < plain.error;
+  found.motion = found.turned ? over : plain;
+  found.on = lies_on(found.motion);
+  found.beside = range.n_vertices - found.on;
+  return found;
+}
+
+}  // namespace
+
+bool turns_beyond(const model::Model& model, std::size_t panel, std::size_t other, const std::vector<Vector3d>& flat_shape) {
+  constexpr double kBeside = 0.05;  // of its vertices
+  const std::optional<Fit> found = fit(model, panel, other, flat_shape, model::FlatIndex(model, static_cast<Index>(other)));
+  return found && found->turned && found->beside > kBeside * (found->on + found->beside);
+}
+
+bool lay_panel(const model::Model& model, std::size_t panel, std::size_t other, const std::vector<Vector3d>& flat_shape, double gap,
+               std::vector<Vector3d>& place) {
+  auto own = [&](Index v) -> Vector2d { return flat_shape[v].head<2>(); };
+  const model::PanelRange& range = model.panels[panel];
+  const model::FlatIndex flat(model, static_cast<Index>(other));
+  const std::optional<Fit> found = fit(model, panel, other, flat_shape, flat);
+  if (!found) return false;
+  const Motion& motion = found->motion;
+  const bool turned = found->turned;
+  // Normals that run on from triangle to triangle: steps would let the panel cut the other one where that is bent.
+  const model::PanelRange& under = model.panels[other];
+  std::vector<Vector3d> normals(static_cast<std::size_t>(under.n_vertices), Vector3d::Zero());
+  for (Index t = under.first_triangle; t < under.first_triangle + under.n_triangles; ++t) {
+    const model::Indices<3>& c = model.triangle[t];
+    const Vector3d normal = (place[c[1]] - place[c[0]]).cross(place[c[2]] - place[c[0]]).normalized();
+    for (Index v : c) normals[v - under.first_vertex] += normal;
+  }
+  for (Vector3d& n : normals) n.normalize();
   for (Index v = range.first_vertex; v < range.first_vertex + range.n_vertices; ++v) {
     std::array<double, 3> weights{};
     const Index t = flat.locate(motion(own(v)), weights);
     if (t < 0) return false;
     const model::Indices<3>& c = model.triangle[t];
-    const Vector3d normal = (place[c[1]] - place[c[0]]).cross(place[c[2]] - place[c[0]]);
-    place[v] = weights[0] * place[c[0]] + weights[1] * place[c[1]] + weights[2] * place[c[2]];
+    Vector3d at = Vector3d::Zero(), normal = Vector3d::Zero();
+    for (int k = 0; k < 3; ++k) {
+      at += weights[k] * place[c[k]];
+      normal += std::clamp(weights[k], 0.0, 1.0) * normals[c[k] - under.first_vertex];
+    }
     const double above = turned ? -flat_shape[v].z() : flat_shape[v].z();
-    if (normal.norm() > 0) place[v] += (gap + above) * normal.normalized();
+    place[v] = at + (gap + above) * normal.normalized();
   }
   return true;
 }

@@ -14,4 +14,7 @@ namespace garment::modeller {
 bool lay_panel(const model::Model& model, std::size_t panel, std::size_t other, const std::vector<Eigen::Vector3d>& flat, double gap,
                std::vector<Eigen::Vector3d>& place);
 
+/// True where `panel`, brought onto `other` like that, lies face down and reaches beyond it: it is a collar's leaf rather than a flap.
+bool turns_beyond(const model::Model& model, std::size_t panel, std::size_t other, const std::vector<Eigen::Vector3d>& flat);
+
 }  // namespace garment::modeller
