@@ -340,14 +340,28 @@ void average_shared(const std::vector<Vector3d>& place, model::Model& model) {
     if (count[i] > 1) model.start[i] /= count[i];
 }
 
+/// Largest length of a triangle's side over its length in the pattern.
+double largest_stretch(const model::Model& model) {
+  double most = 0;
+  for (std::size_t t = 0; t < model.n_triangles(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      const model::Index v = model.triangle[t][k], w = model.triangle[t][(k + 1) % 3];
+      const double length = (model.start[model.vertex_particle[v]] - model.start[model.vertex_particle[w]]).norm();
+      most = std::max(most, length / (model.vertex_uv[v] - model.vertex_uv[w]).norm());
+    }
+  return most;
+}
+
 /// Brings the start out of the bodies. Panels that all lie on bodies are out already, but for what seams pull in: where that does not
-/// come out whole it stays as it is, for a cloth that hangs through half a body would be torn to pieces.
+/// come out whole, or only by being drawn out much more than the seams do, it stays as it is.
 void clear_bodies(const std::vector<body::Body>& bodies, bool any_rigid, model::Model& model) {
+  constexpr double kDrawnOut = 1.5;
   const std::vector<Vector3d> as_placed = model.start;
+  const double stretch = largest_stretch(model);
   std::size_t pierced = 0;
   for (const body::Body& b : bodies)
     if (any_rigid || starts_inside(b, model)) pierced += clear_start(b, model);
-  if (pierced > 0 && !any_rigid) model.start = as_placed;
+  if (!any_rigid && (pierced > 0 || largest_stretch(model) > kDrawnOut * stretch)) model.start = as_placed;
 }
 
 }  // namespace
