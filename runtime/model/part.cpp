@@ -93,6 +93,7 @@ class Cut {
 
   void triangles() {
     std::vector<Index> vertex(w_.n_vertices(), -1);
+    triangle_.assign(w_.n_triangles(), -1);
     for (std::size_t t = 0; t < w_.n_triangles(); ++t)
       if (shown(t))
         for (Index v : w_.triangle[t]) vertex[v] = 0;
@@ -110,7 +111,6 @@ class Cut {
       part.first_triangle = static_cast<Index>(m_.triangle.size());
       for (auto t = static_cast<std::size_t>(range.first_triangle); t < static_cast<std::size_t>(range.first_triangle + range.n_triangles); ++t) {
         if (!shown(t)) continue;
-        triangle_.resize(w_.n_triangles(), -1);
         triangle_[t] = static_cast<Index>(m_.triangle.size());
         Indices<3> corner = w_.triangle[t];
         for (Index& v : corner) v = vertex[v];
@@ -120,7 +120,6 @@ class Cut {
       part.n_triangles = static_cast<Index>(m_.triangle.size()) - part.first_triangle;
       m_.panels.push_back(part);
     }
-    triangle_.resize(w_.n_triangles(), -1);
     m_.rub_panels = w_.rub_panels;
     m_.rub_panels_factor = w_.rub_panels_factor;
   }

@@ -344,7 +344,7 @@ void Relaxation::give_back(Relaxation& whole, const std::vector<model::Index>& p
 void Relaxation::coast(Vectors& x) {
   origin_.clear();
   // In a tangle the energy says nothing; where cloth rubs on cloth, or within itself, the way counts.
-  if (!tangle_.empty() || !inner_.idle() || !cloth_friction_.idle()) return momentum_.forget();
+  if (!plain()) return momentum_.forget();
   double share = momentum_.share();
   if (share <= 0) return;
   const Vectors& way = momentum_.way();
