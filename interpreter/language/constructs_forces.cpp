@@ -79,12 +79,14 @@ std::vector<ConstructRecord> forces_constructs() {
        .example = "drag 1.2",
        .run = run_drag},
       {.keyword = "solver",
-       .form = "solver quasi_static | dynamic_constraints | implicit | semi_implicit | explicit [step TIME] [hysteresis on | off]",
+       .form = "solver quasi_static | dynamic_constraints | implicit | semi_implicit | explicit [step TIME] [hysteresis on | off] [symmetric on | off]",
        .doc = "chooses how the particles are moved",
        .example = "solver quasi_static",
        .clauses = {{"step", "TIME", "the step of a motion", kTime, 1e-7, 1},
                    {"hysteresis", "on | off", "the cloth's own friction (two_HB, two_HG, two_HG5, RT) acts: in what moves, and in drapes to rest; "
-                    "`quasi_static` has it where it is not stated, drapes to rest have not", {}, 1, 0, "off; on with `quasi_static`"}},
+                    "`quasi_static` has it where it is not stated, drapes to rest have not", {}, 1, 0, "off; on with `quasi_static`"},
+                   {"symmetric", "on | off", "a garment on a person that is cut and placed as its own mirror image comes to rest so; `off`: its folds fall as "
+                    "they may", {}, 1, 0, "on"}},
        .run = run_solver},
   };
 }

@@ -176,6 +176,8 @@ void run_solver(Program& program, const Item& item) {
   if (const auto step = clauses.quantity("step")) choice.step = *step;
   if (const BoundClause* hysteresis = clauses.find("hysteresis"))
     choice.hysteresis = eval_word(program, clauses.value(*hysteresis), {"off", "on"}, "word of `hysteresis`") == 1;
+  if (const BoundClause* symmetric = clauses.find("symmetric"))
+    choice.symmetric = eval_word(program, clauses.value(*symmetric), {"off", "on"}, "word of `symmetric`") == 1;
   clauses.finish();
   if (stated != nullptr && choice.method == design::SolverChoice::Method::quasi_static)
     fail(program,

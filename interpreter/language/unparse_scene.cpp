@@ -84,6 +84,7 @@ std::string solver(const design::SolverChoice& choice) {
   std::string out = std::string("solver ") + kMethods[static_cast<int>(choice.method)];
   if (choice.step > 0) out += " step " + format_number(choice.step) + " s";
   if (choice.hysteresis) out += *choice.hysteresis ? " hysteresis on" : " hysteresis off";
+  if (!choice.symmetric) out += " symmetric off";
   return out;
 }
 

@@ -1,5 +1,7 @@
 #include "interpreter/session/drape_act.hpp"
 
+#include <algorithm>
+
 #include "interpreter/session/models.hpp"
 #include "runtime/model/motion.hpp"
 #include "runtime/modeller/holds.hpp"
@@ -55,11 +57,18 @@ simulator::DrapeReport for_a_time(double duration, const DrapeScene& scene, mode
 
 }  // namespace
 
+void take_stated(const interpreter::Interpretation& script, const std::vector<body::Body>& bodies, simulator::DrapeSettings& settings) {
+  const design::Scene& scene = script.garment.scene;
+  settings.hysteresis = scene.slides_to_rest();
+  // Only people are asked to wear it evenly: what hangs from a pin, or over a table, buckles as it may.
+  settings.symmetric = scene.symmetric() && std::any_of(bodies.begin(), bodies.end(), [](const body::Body& b) { return !b.levels.empty(); });
+}
+
 simulator::DrapeReport perform_drape(const interpreter::DrapeAct& act, const DrapeScene& scene, model::State& state) {
   if (!act.until_rest) return for_a_time(act.duration, scene, state);
   simulator::DrapeSettings settings = scene.settings;
   settings.settle = act.settle;
-  settings.hysteresis = scene.script.garment.scene.slides_to_rest();
+  take_stated(scene.script, scene.bodies, settings);
   return to_rest(scene, settings, state);
 }
 

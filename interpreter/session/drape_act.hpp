@@ -19,6 +19,9 @@ struct DrapeScene {
   Recorder* recorder = nullptr;           ///< of a drape for a time; null: none
 };
 
+/// What the script says of its drapes to rest: whether the cloth's own friction acts, and whether a garment on a person is kept symmetric.
+void take_stated(const interpreter::Interpretation& script, const std::vector<body::Body>& bodies, simulator::DrapeSettings& settings);
+
 /// Drapes `state`. To rest, moving clamps and bodies stand where they are at the state's time.
 simulator::DrapeReport perform_drape(const interpreter::DrapeAct& act, const DrapeScene& scene, model::State& state);
 

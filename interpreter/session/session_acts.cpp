@@ -201,7 +201,7 @@ Outcome Session::drape(Stage& stage, bool from_present, std::string& text) {
   const interpreter::Interpretation& result = stage.evaluated->result;
   simulator::DrapeSettings settings;
   settings.settle = stage.shape.settle;
-  settings.hysteresis = result.garment.scene.slides_to_rest();
+  take_stated(result, result.bodies, settings);
   if (options_.max_steps > 0) settings.max_steps = options_.max_steps;
   settings.progress = options_.progress;
   settings.interrupted = options_.interrupted;

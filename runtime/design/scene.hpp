@@ -85,6 +85,7 @@ struct SolverChoice {
   enum class Method { quasi_static, dynamic_constraints, implicit, semi_implicit, explicit_steps } method = Method::quasi_static;
   double step = 0;  ///< s; 0: chosen by the solver
   std::optional<bool> hysteresis;  ///< friction inside the cloth; unstated: `quasi_static` has it
+  bool symmetric = true;           ///< a garment on a person that is its own mirror image comes to rest so
   bool slides() const { return hysteresis.value_or(method == Method::quasi_static); }
 };
 
@@ -102,6 +103,7 @@ struct Scene {
   /// The cloth's own friction acts: drapes to rest have it where it is stated, drapes for a time also with `quasi_static`.
   bool slides() const { return solver && solver->slides(); }
   bool slides_to_rest() const { return solver && solver->hysteresis.value_or(false); }
+  bool symmetric() const { return !solver || solver->symmetric; }
 };
 
 }  // namespace garment::design

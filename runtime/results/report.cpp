@@ -108,6 +108,7 @@ Json drape(const Report& r) {
           {"self_intersections", r.drape.self_intersections},
           {"body_intersections", r.drape.body_intersections},
           {"inside_body", r.drape.inside_body},
+          {"symmetric", r.drape.symmetric},
           {"motion", motion(r.drape.motion)},
           {"findings", findings(r.drape.findings)}};
 }

@@ -24,8 +24,8 @@ std::size_t count(const std::vector<char>& marks) { return static_cast<std::size
 
 }  // namespace
 
-Awake::Awake(const model::Model& model, const std::vector<body::Body>& bodies, const Relaxation& whole)
-    : model_(model), bodies_(bodies), mesh_(whole.mesh()) {
+Awake::Awake(const model::Model& model, const std::vector<body::Body>& bodies, const Mirror& mirror, const Relaxation& whole)
+    : model_(model), bodies_(bodies), mirror_(mirror), mesh_(whole.mesh()) {
   for (std::size_t t = 0; t < model.n_triangles(); ++t) {
     const auto c = model.corners(t);
     if (c[0] != c[1] && c[1] != c[2] && c[2] != c[0]) triangle_.push_back(t);
@@ -35,6 +35,7 @@ Awake::Awake(const model::Model& model, const std::vector<body::Body>& bodies, c
 std::vector<char> Awake::moving(const Vectors& before, const Vectors& x) const {
   std::vector<char> free(x.size());
   for (std::size_t i = 0; i < x.size(); ++i) free[i] = (x[i] - before[i]).squaredNorm() > kAwake * kAwake ? 1 : 0;
+  mirror_.spread(free);
   for (int ring = 0; ring < kRings; ++ring) {
     std::vector<char> wider = free;
     for (const auto& e : mesh_.edge)
@@ -76,6 +77,7 @@ int Awake::settle(Relaxation& whole, const Vectors& before, double target, Vecto
   if (part.particle.size() > share(kLittleWithSleeping)) return 0;
   Relaxation own(part.model, bodies_, whole.settings());
   own.borrow(whole, part.particle);
+  own.keep_even(mirror_.of_part(part.particle, part.free));
   own.keep_near(part.model.start, leash);
   Vectors at = part.model.start;
   // What the part adds to the residual of the whole.

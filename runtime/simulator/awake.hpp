@@ -14,8 +14,8 @@ namespace garment::simulator {
 /// the whole garment is ever judged to be at rest.
 class Awake {
  public:
-  /// Keeps references to all three.
-  Awake(const model::Model& model, const std::vector<body::Body>& bodies, const Relaxation& whole);
+  /// Keeps references to all four.
+  Awake(const model::Model& model, const std::vector<body::Body>& bodies, const Mirror& mirror, const Relaxation& whole);
 
   /// Settles what moved on the way from `before` to x [n_particles], where that is little: at most 30 steps, fewer where its share
   /// of the residual falls well under `target`. Returns the steps made. Starts no intersection. Precondition: a step of
@@ -28,6 +28,7 @@ class Awake {
 
   const model::Model& model_;
   const std::vector<body::Body>& bodies_;
+  const Mirror& mirror_;
   const ContactMesh& mesh_;
   std::vector<std::size_t> triangle_;  // of the model, by triangle of the mesh
 };

@@ -42,6 +42,9 @@ constexpr int kMostRepairs = 12;            // times that a garment at rest may 
 constexpr double kExtraOffset = 1e-3;       // m, by which a particle of a pierced part is pushed farther, each time
 constexpr double kMostExtraOffset = 20e-3;  // m
 constexpr double kSlidingResidual = 0.05;   // rest where sliders act and the drape is to be exact: stiff, they hold or slip to the last bits
+constexpr int kEveningSteps = 60;           // until a garment that begins uneven must lie as its own image
+constexpr int kMostEvenSteps = 1500;        // of settling, after which the two halves go their own ways
+constexpr double kSymmetric = 1e-4;         // m, from its own image
 constexpr int kIncrements = 10;             // of the weight, where the cloth's own friction acts
 
 bool all_finite(const Vectors& x) {
@@ -112,7 +115,8 @@ void push_pierced(const ContactMesh& mesh, const Tangle& tangle, Relaxation& rel
 /// At rest the exact test decides: what still pierces a body is pushed farther out, and settling goes on.
 class Way {
  public:
-  Way(Drape& d, const ContactMesh& all) : d_(d), all_(all), relaxation_(d.model, d.bodies, relaxation_settings(d)), awake_(d.model, d.bodies, relaxation_) {
+  Way(Drape& d, const ContactMesh& all) : d_(d), all_(all), mirror_(d.settings.symmetric ? Mirror(d.model, d.bodies) : Mirror()), relaxation_(d.model, d.bodies, relaxation_settings(d)), awake_(d.model, d.bodies, mirror_, relaxation_) {
+    relaxation_.keep_even(mirror_);
     if (d.settings.self_collision) relaxation_.set_tangle(find_tangle(relaxation_.mesh(), no_bodies(), d.x));
     if (d.settings.near_rest) {
       enter(Stage::settling);
@@ -146,12 +150,16 @@ class Way {
   }
 
   Relaxation& relaxation() { return relaxation_; }
+  bool even() const { return !mirror_.empty() && mirror_.unevenness(d_.x) < kSymmetric; }
 
   /// In a checkpoint between two steps.
   void keep(Archive& a) {
     keep_positions(a, d_.x, d_.model.n_particles(), relaxation_.mesh().largest_contact_distance);
     a.keep(stage_, Stage::settling);
-    for (int* count : {&steps_in_stage_, &refused_, &repairs_, &d_.report.steps, &increment_, &most_steps_, &calming_, &pause_}) {
+    bool even = !mirror_.empty();
+    a.keep(even);
+    if (a.reading() && !even) relaxation_.keep_even(mirror_ = Mirror());
+    for (int* count : {&uneven_, &steps_in_stage_, &refused_, &repairs_, &d_.report.steps, &increment_, &most_steps_, &calming_, &pause_}) {
       a.keep(*count);
       a.demand(*count >= 0 && *count <= kMostCounted);
     }
@@ -188,6 +196,7 @@ class Way {
       else if (stage_ == Stage::settling)  // before, without weight and soft, cloth thrown ahead turns collars up again
         relaxation_.coast(d_.x);
       before_ = d_.x;
+      part_halves();
       StepReport step = relaxation_.step(d_.x);
       ++d_.report.steps;
       ++steps_in_stage_;
@@ -231,6 +240,17 @@ class Way {
     settings.self_collision = d.settings.self_collision;
     if (d.settings.settle == Settle::exact) settings.friction_give = kExactGive;
     return settings;
+  }
+
+  /// A garment whose halves cannot come to lie alike, or do not come to rest so, is no longer kept as its own image.
+  void part_halves() {
+    if (mirror_.empty()) return;
+    if (!relaxation_.uneven()) uneven_ = 0;
+    else ++uneven_;
+    if (uneven_ < kEveningSteps && !(stage_ == Stage::settling && steps_in_stage_ > kMostEvenSteps)) return;
+    mirror_ = Mirror();
+    relaxation_.keep_even(mirror_);
+    relaxation_.forget_motion();
   }
 
   void advance(const StepReport& step, double target) {
@@ -286,10 +306,12 @@ class Way {
 
   Drape& d_;
   const ContactMesh& all_;
+  Mirror mirror_;
   Relaxation relaxation_;
   Awake awake_;
   Stage stage_ = Stage::soft;
   int most_steps_ = d_.settings.max_steps, increment_ = 0;  // of the weight, 0: the sliders have not begun
+  int uneven_ = 0;  // steps in a row that ended uneven
   int steps_in_stage_ = 0, refused_ = 0, repairs_ = 0;
   int calming_ = 0;  // steps to go until the place is judged, that one included
   int pause_ = 0;    // steps until the next try
@@ -367,6 +389,7 @@ DrapeReport drape(const model::Model& model, const std::vector<body::Body>& bodi
   if (!settings.checkpoints.resume.empty() && !settings.checkpoints.restore(way)) return not_resumed();
   const bool hangs = settings.hysteresis && settings.checkpoints.resume.empty() && way.relaxation().inner_friction().take_anchors(state.slip);
   report.status = way.go(hangs);
+  report.symmetric = way.even();
   if (!way.relaxation().inner_friction().idle()) state.slip = way.relaxation().inner_friction().anchors();
   Vectors force;
   report.residual = number_or_infinite(way.relaxation().residual(d.x, force));

@@ -30,6 +30,7 @@ struct DrapeSettings {
   bool self_collision = true;
   bool near_rest = false;     ///< the start comes from a coarser grid: no dressing, the true stiffness from the first step
   bool hysteresis = false;    ///< the cloth's own friction acts: at rest the weight comes on anew, in increments
+  bool symmetric = false;     ///< a garment that is its own image (mirror.hpp) is kept so, as long as it comes to rest
   bool certify = true;        ///< at rest, go on until the exact test finds nothing; off for coarse grids
   std::function<void(const DrapeProgress&)> progress;  ///< called between steps; may be empty
   std::function<bool()> interrupted;                   ///< asked between steps; may be empty
@@ -51,6 +52,7 @@ struct DrapeReport {
   int steps = 0;
   double residual = 0;              ///< RMS residual over RMS particle weight, from the final positions
   double newton_step = 0;           ///< predicted largest Newton step, m
+  bool symmetric = false;           ///< was kept as its own image to the end
   double energy = 0;                ///< elastic + gravity, J
   std::size_t self_intersections = 0;   ///< triangle pairs, exact test
   std::size_t body_intersections = 0;   ///< triangle pairs cloth x body, exact test

@@ -30,6 +30,7 @@ constexpr double kLeastSwing = 2e-5;       // m
 constexpr double kLeastDamping = 10, kMostDamping = 1e4;  // N/m
 constexpr double kForgetDamping = 0.8;     // per step
 constexpr double kMostCoasted = 0.5;       // cells, ahead of a step
+constexpr double kEven = 1e-5;             // m, between a particle and the image of its image
 constexpr double kHoldSpeed = 5e-3;        // m per step towards a hold's place
 
 double largest(const Vectors& v) {
@@ -153,6 +154,7 @@ double Relaxation::residual(const Vectors& x, Vectors& force) {
   add_contact_forces(contacts_, settings_.contact_stiffness, force, nullptr, stiffness_);
   cloth_friction_.begin(mesh_, candidates_.list(), contacts_, settings_.contact_stiffness);
   cloth_friction_.add_force(x, force, nullptr, nullptr);
+  if (inner_.idle()) mirror_.even(force);
   reactions_ = simulator::reactions(model_, holds_, force);
   moments_ = simulator::moments(model_, holds_, force, x);
   return residual_of(force);
@@ -201,6 +203,7 @@ double Relaxation::assemble(const Vectors& x, StepReport& report) {
   add_contact_forces(contacts_, settings_.contact_stiffness, force_, &matrix_, stiffness_);
   cloth_friction_.begin(mesh_, candidates_.list(), contacts_, settings_.contact_stiffness);
   cloth_friction_.add_force(x, force_, &matrix_, &stiffness_);
+  if (inner_.idle()) mirror_.even(force_);
   net_ = force_;
   report.residual = residual_of(net_);
   bodies_.add_forces(x, force_, matrix_);
@@ -369,6 +372,11 @@ StepReport Relaxation::step(Vectors& x) {
   double predicted = 0;  // decrease of the energy that the quadratic model promises, at least half of f . dx
   for (std::size_t i = 0; i < x.size(); ++i) predicted += wish_[i].dot(dx_[i]);
   bool driven = drive(x);
+  if (inner_.idle() && !mirror_.empty()) {
+    uneven_ = mirror_.unevenness(x) > kEven;
+    driven |= uneven_;
+    mirror_.even(x, dx_);
+  }
   TruncateStats cut = keep_apart(x);
   double after = search(x, before, driven, report);
   // Cutting single particles back turns the step, perhaps uphill. The whole step made shorter does not turn.

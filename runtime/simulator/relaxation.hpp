@@ -18,6 +18,7 @@
 #include "runtime/simulator/kept_candidates.hpp"
 #include "runtime/simulator/linear_solver.hpp"
 #include "runtime/simulator/loads.hpp"
+#include "runtime/simulator/mirror.hpp"
 #include "runtime/simulator/momentum.hpp"
 #include "runtime/simulator/truncate.hpp"
 #include "runtime/simulator/untangle.hpp"
@@ -104,6 +105,10 @@ class Relaxation {
   void give_back(Relaxation& whole, const std::vector<model::Index>& particle, const std::vector<char>& free);
   /// No particle goes farther from its place than `leash` (m) from now on.
   void keep_near(std::vector<Eigen::Vector3d> place, double leash) { place_ = std::move(place), leash_ = leash; }
+  /// Steps end where the garment lies as its own image.
+  void keep_even(Mirror mirror) { mirror_ = std::move(mirror); }
+  /// Did the last step begin where it does not?
+  bool uneven() const { return uneven_; }
   /// Did the leash cut the last step back?
   bool at_leash() const { return at_leash_; }
   /// No tangle is taken apart, and neither cloth rubs on cloth nor within itself: energy tells all.
@@ -166,6 +171,8 @@ class Relaxation {
   std::vector<Eigen::Vector3d> place_;   // from which particles go no farther than the leash; empty: wherever they like
   double leash_ = 0;                     // m
   bool at_leash_ = false;
+  Mirror mirror_;
+  bool uneven_ = false;
   std::vector<Eigen::Vector3d> force_, wish_, net_, dx_, whole_, trial_, untangle_;
 };
 

@@ -104,7 +104,9 @@ TEST_CASE("what moved in a garment at rest settles alone, and all else sleeps") 
   simulator::Relaxation whole(m, {}, {});
   Positions force;
   const double before = whole.residual(x, force), energy = whole.energy(x);
-  const simulator::Awake awake(m, {}, whole);
+  const std::vector<body::Body> nobody;
+  const simulator::Mirror no_mirror;
+  const simulator::Awake awake(m, nobody, no_mirror, whole);
   Positions settled = x;
   CHECK(awake.settle(whole, hung.state.position, 0.05, settled) > 1);
   int went = 0;
@@ -137,7 +139,9 @@ TEST_CASE("cloth that settles alone does not fall through cloth that sleeps") {
   simulator::Relaxation whole(m, {}, {});
   Positions force;
   whole.residual(x, force);
-  const simulator::Awake awake(m, {}, whole);
+  const std::vector<body::Body> nobody;
+  const simulator::Mirror no_mirror;
+  const simulator::Awake awake(m, nobody, no_mirror, whole);
   double lowest = 1;
   for (int round = 0; round < 6; ++round) {
     const Positions from = x;
