@@ -344,6 +344,19 @@ complains "cannot be written yet"
 sed 's/^expect.*/release two\ndrape until rest settle preview\nexpect position(two).y < 1.06 m\nexpect position(one).y == 1.1 m within 1 mm/' \
   square.garment >released.garment
 run 0 run released.garment --no-pictures -o released_out
+# ---- a layer at rest on the wrong side: what comes after the drape is done, and the exit code is that of an `expect` that failed
+cp "$2/tests/golden/run/lining_outside.garment" outside.garment
+echo 'save "outside.obj"' >>outside.garment
+run 5 run outside.garment --no-pictures -o outside_out
+complains "warning[G0609]: \`lining\` is declared under \`front\`, but starts over it"
+complains "error[G0811]: \`lining\` is declared under \`front\`, but came to rest over it"
+exists outside_out/outside.obj
+ok
+grep -q '"G0811"' outside_out/report.json || fail "the report does not hold what is wrong"
+grep -v '^drape' outside.garment >flat.garment
+run 0 check --model flat.garment
+silent err.txt
+
 # ---- a study: a round for each value, side by side
 { grep -v '^drape\|^expect' square.garment
   echo 'vary wide over 8 cm, 12 cm { drape until rest settle preview; expect mass < 1 kg; save "cloth.obj" }'; } >study.garment

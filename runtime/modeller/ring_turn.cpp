@@ -1,0 +1,176 @@
+#include "runtime/modeller/ring_turn.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "runtime/base/number.hpp"
+
+namespace garment::modeller {
+namespace {
+
+using model::Index;
+using model::Vector3d;
+
+constexpr std::size_t kSamples = 64;
+constexpr double kFits = 0.5;             // correlation of rings that lie to each other as they should
+constexpr double kMisses = -0.25;         // correlation of flat rings a good quarter of a turn off
+constexpr double kLeastPlaced = 1.0 / 3;  // of the ring
+constexpr double kMeets = 0.08;           // of the ring: ends of seams that are about at one place
+
+/// One side of a seam as a ring: its vertices, and how far along the ring each is, 0 .. 1.
+struct SewnRing {
+  const std::vector<Index>& vertices;
+  std::vector<double> at;
+  double length = 0;  ///< as cut, m
+};
+
+SewnRing ring_of(const std::vector<Index>& vertices, const model::Model& model) {
+  SewnRing ring{vertices, {0}};
+  for (std::size_t k = 1; k < vertices.size(); ++k) {
+    const Index a = vertices[k - 1], b = vertices[k];
+    // Where one link ends and the next begins, the seam goes on at the same particle.
+    const bool on = model.vertex_panel[a] == model.vertex_panel[b] && model.vertex_particle[a] != model.vertex_particle[b];
+    ring.length += on ? (model.vertex_uv[b] - model.vertex_uv[a]).norm() : 0;
+    ring.at.push_back(ring.length);
+  }
+  for (double& at : ring.at) at /= ring.length;
+  return ring;
+}
+
+RingPlaces sampled(const SewnRing& ring, const model::Model& model, const std::vector<bool>& done, const std::vector<Vector3d>& place) {
+  RingPlaces samples;
+  std::size_t k = 1;
+  for (std::size_t i = 0; i < kSamples; ++i) {
+    const double at = static_cast<double>(i) / kSamples;
+    while (k + 1 < ring.at.size() && ring.at[k] < at) ++k;
+    const Index before = ring.vertices[k - 1], after = ring.vertices[k];
+    const double step = ring.at[k] - ring.at[k - 1], share = step > 0 ? std::clamp((at - ring.at[k - 1]) / step, 0.0, 1.0) : 0;
+    const bool placed = done[model.vertex_panel[before]] && done[model.vertex_panel[after]];
+    samples.push_back(placed ? std::optional<Vector3d>((1 - share) * place[before] + share * place[after]) : std::nullopt);
+  }
+  return samples;
+}
+
+/// Correlation of the places of `a` with those of `b` `turn` steps on, each about the middle of those that both have; none where
+/// that is too little of the ring.
+std::optional<double> correlation(const RingPlaces& a, const RingPlaces& b, std::size_t turn) {
+  const std::size_t n = a.size();
+  Vector3d of_a = Vector3d::Zero(), of_b = Vector3d::Zero();
+  double both = 0;
+  auto for_both = [&](const auto& look_at) {
+    for (std::size_t i = 0; i < n; ++i)
+      if (a[i] && b[(i + turn) % n]) look_at(*a[i], *b[(i + turn) % n]);
+  };
+  for_both([&](const Vector3d& p, const Vector3d& q) { of_a += p, of_b += q, both += 1; });
+  if (both < kLeastPlaced * static_cast<double>(n)) return std::nullopt;
+  of_a /= both;
+  of_b /= both;
+  double pp = 0, qq = 0, pq = 0;
+  for_both([&](const Vector3d& p, const Vector3d& q) {
+    pp += (p - of_a).squaredNorm();
+    qq += (q - of_b).squaredNorm();
+    pq += (p - of_a).dot(q - of_b);
+  });
+  if (!(pp > 0) || !(qq > 0)) return std::nullopt;
+  return pq / std::sqrt(pp * qq);
+}
+
+/// Another seam that ends on a ring.
+struct SeamEnd {
+  std::string name;
+  double at;  ///< of the ring, 0 .. 1
+};
+
+double round_distance(double a, double b) {
+  const double d = std::abs(a - b);
+  return std::min(d - std::floor(d), 1 - (d - std::floor(d)));
+}
+
+/// Seams that end on this ring and whose cloth is that of the ring, not of the one that it is sewn to.
+std::vector<SeamEnd> ends_on(const SewnRing& ring, const std::string& own, const model::Model& model) {
+  std::set<Index> panels;
+  for (Index v : ring.vertices) panels.insert(model.vertex_panel[v]);
+  auto is_of_ring = [&](Index particle) {
+    for (std::size_t v = 0; v < model.n_vertices(); ++v)
+      if (model.vertex_particle[v] == particle && panels.contains(model.vertex_panel[v])) return true;
+    return false;
+  };
+  std::vector<SeamEnd> ends;
+  for (const model::SeamChain& chain : model.seams) {
+    if (chain.name == own || chain.particles.size() < 3 || !is_of_ring(chain.particles[chain.particles.size() / 2])) continue;
+    for (Index end : {chain.particles.front(), chain.particles.back()})
+      for (std::size_t k = 0; k < ring.vertices.size(); ++k)
+        if (model.vertex_particle[ring.vertices[k]] == end) {
+          ends.push_back({chain.name, ring.at[k]});
+          break;
+        }
+  }
+  return ends;
+}
+
+const SeamEnd* nearest(const std::vector<SeamEnd>& ends, double at) {
+  const auto found = std::min_element(ends.begin(), ends.end(), [&](const SeamEnd& a, const SeamEnd& b) {
+    return round_distance(a.at, at) < round_distance(b.at, at);
+  });
+  return found == ends.end() ? nullptr : &*found;
+}
+
+/// ": `under` meets `shoulder`, and `side`, beside which it is placed, is 24 cm further on"; empty where no seams tell it.
+std::string told_by_seams(const SewnRing& a, const SewnRing& b, const std::string& own, double turned, const model::Model& model) {
+  const std::vector<SeamEnd> here = ends_on(a, own, model), there = ends_on(b, own, model);
+  for (const SeamEnd& end : here) {
+    const SeamEnd *meets = nearest(there, end.at), *wanted = nearest(there, end.at + turned);
+    if (meets == nullptr || meets->name == wanted->name || round_distance(wanted->at, end.at + turned) > 2 * kMeets) continue;
+    const std::string away = format_number(100 * round_distance(wanted->at, end.at) * b.length, 2) + " cm";
+    if (round_distance(meets->at, end.at) < kMeets)
+      return fmt::format(": `{}` meets `{}`, and `{}`, beside which it is placed, is {} away", end.name, meets->name, wanted->name, away);
+    return fmt::format(": `{}` is placed beside `{}`, which is {} away", end.name, wanted->name, away);
+  }
+  return "";
+}
+
+}  // namespace
+
+RingTurn ring_turn(const RingPlaces& a, const RingPlaces& b) {
+  RingTurn found;
+  const std::optional<double> sewn = correlation(a, b, 0);
+  if (!sewn) return found;
+  found.sewn = found.best = *sewn;
+  for (std::size_t turn = 1; turn < a.size(); ++turn)
+    if (const std::optional<double> fit = correlation(a, b, turn); fit && *fit > found.best)
+      found.best = *fit, found.turned = static_cast<double>(turn) / static_cast<double>(a.size());
+  return found;
+}
+
+Findings turned_rings(const std::vector<SewnSides>& sides, const model::Model& model, const std::vector<bool>& done,
+                      const std::vector<Vector3d>& place) {
+  Findings findings;
+  for (const SewnSides& sewn : sides) {
+    if (!sewn.seam->rings) continue;
+    if (std::any_of(sewn.side.begin(), sewn.side.end(), [](const std::vector<Index>& side) { return side.size() < 4; })) continue;
+    const SewnRing last = ring_of(sewn.side.back(), model);
+    for (std::size_t s = 0; s + 1 < sewn.side.size(); ++s) {
+      const SewnRing ring = ring_of(sewn.side[s], model);
+      if (!(ring.length > 0) || !(last.length > 0)) continue;
+      const RingTurn turn = ring_turn(sampled(ring, model, done, place), sampled(last, model, done, place));
+      if (turn.sewn > kMisses || turn.best < kFits) continue;
+      findings.push_back({"G0552",
+                          Severity::warning,
+                          fmt::format("seam `{}` joins two rings {}% of the way round from how they are placed{}", sewn.seam->name,
+                                      format_number(100 * std::min(turn.turned, 1 - turn.turned), 2),
+                                      told_by_seams(ring, last, sewn.seam->name, turn.turned, model)),
+                          {{sewn.seam->origin, ""}},
+                          "let both rings begin at places that belong together: exchange the links of one side (`b + a` for `a + b`), or name "
+                          "the seam or notch in `start at`"});
+      break;
+    }
+  }
+  return findings;
+}
+
+}  // namespace garment::modeller
