@@ -19,7 +19,7 @@ using model::Vector3d;
 constexpr std::size_t kSamples = 64;
 constexpr double kFits = 0.5;             // correlation of rings that lie to each other as they should
 constexpr double kMisses = -0.25;         // correlation of flat rings a good quarter of a turn off
-constexpr double kLeastPlaced = 1.0 / 3;  // of the ring
+constexpr double kLeastPlaced = 0.5;      // of the ring
 constexpr double kMeets = 0.08;           // of the ring: ends of seams that are about at one place
 
 /// One side of a seam as a ring: its vertices, and how far along the ring each is, 0 .. 1.
@@ -56,28 +56,33 @@ RingPlaces sampled(const SewnRing& ring, const model::Model& model, const std::v
   return samples;
 }
 
-/// Correlation of the places of `a` with those of `b` `turn` steps on, each about the middle of those that both have; none where
-/// that is too little of the ring.
-std::optional<double> correlation(const RingPlaces& a, const RingPlaces& b, std::size_t turn) {
-  const std::size_t n = a.size();
-  Vector3d of_a = Vector3d::Zero(), of_b = Vector3d::Zero();
-  double both = 0;
-  auto for_both = [&](const auto& look_at) {
-    for (std::size_t i = 0; i < n; ++i)
-      if (a[i] && b[(i + turn) % n]) look_at(*a[i], *b[(i + turn) % n]);
-  };
-  for_both([&](const Vector3d& p, const Vector3d& q) { of_a += p, of_b += q, both += 1; });
-  if (both < kLeastPlaced * static_cast<double>(n)) return std::nullopt;
-  of_a /= both;
-  of_b /= both;
-  double pp = 0, qq = 0, pq = 0;
-  for_both([&](const Vector3d& p, const Vector3d& q) {
-    pp += (p - of_a).squaredNorm();
-    qq += (q - of_b).squaredNorm();
-    pq += (p - of_a).dot(q - of_b);
-  });
-  if (!(pp > 0) || !(qq > 0)) return std::nullopt;
-  return pq / std::sqrt(pp * qq);
+/// The ring with what has no place laid straight between what has; empty where that is too little.
+std::vector<Vector3d> closed(const RingPlaces& ring) {
+  const std::size_t n = ring.size();
+  const auto placed = static_cast<std::size_t>(std::count_if(ring.begin(), ring.end(), [](const auto& place) { return place.has_value(); }));
+  if (n == 0 || static_cast<double>(placed) < kLeastPlaced * static_cast<double>(n)) return {};
+  std::vector<Vector3d> points;
+  for (std::size_t i = 0; i < n; ++i) {
+    std::size_t back = 0, on = 0;
+    while (!ring[(i + n - back) % n]) ++back;
+    while (!ring[(i + on) % n]) ++on;
+    const double share = back + on > 0 ? static_cast<double>(back) / static_cast<double>(back + on) : 0;
+    points.push_back((1 - share) * *ring[(i + n - back) % n] + share * *ring[(i + on) % n]);
+  }
+  return points;
+}
+
+void bring_to_middle(std::vector<Vector3d>& points) {
+  Vector3d middle = Vector3d::Zero();
+  for (const Vector3d& p : points) middle += p;
+  middle /= static_cast<double>(std::max<std::size_t>(points.size(), 1));
+  for (Vector3d& p : points) p -= middle;
+}
+
+double square_sum(const std::vector<Vector3d>& points) {
+  double sum = 0;
+  for (const Vector3d& p : points) sum += p.squaredNorm();
+  return sum;
 }
 
 /// Another seam that ends on a ring.
@@ -137,13 +142,20 @@ std::string told_by_seams(const SewnRing& a, const SewnRing& b, const std::strin
 }  // namespace
 
 RingTurn ring_turn(const RingPlaces& a, const RingPlaces& b) {
+  std::vector<Vector3d> p = closed(a), q = closed(b);
+  bring_to_middle(p);
+  bring_to_middle(q);
+  const double size = std::sqrt(square_sum(p) * square_sum(q));
   RingTurn found;
-  const std::optional<double> sewn = correlation(a, b, 0);
-  if (!sewn) return found;
-  found.sewn = found.best = *sewn;
-  for (std::size_t turn = 1; turn < a.size(); ++turn)
-    if (const std::optional<double> fit = correlation(a, b, turn); fit && *fit > found.best)
-      found.best = *fit, found.turned = static_cast<double>(turn) / static_cast<double>(a.size());
+  if (!(size > 0)) return found;
+  const std::size_t n = p.size();
+  for (std::size_t turn = 0; turn < n; ++turn) {
+    double sum = 0;
+    for (std::size_t i = 0; i < n; ++i) sum += p[i].dot(q[(i + turn) % n]);
+    const double fit = sum / size;
+    if (turn == 0) found.sewn = found.best = fit;
+    if (fit > found.best) found.best = fit, found.turned = static_cast<double>(turn) / static_cast<double>(n);
+  }
   return found;
 }
 

@@ -19,10 +19,11 @@ struct RingTurn {
   double best = 1;      ///< the most over all turns of the second ring
   double turned = 0;    ///< that turn, as a share of the ring, 0 .. 1
 };
-/// `a` and `b` have as many steps. Turns at which less than a third of the ring has places on both sides are not counted.
+/// `a` and `b` have as many steps. What has no place is laid straight between what has; a ring with less than half of its places, or
+/// without size, is taken to fit.
 RingTurn ring_turn(const RingPlaces& a, const RingPlaces& b);
 
-/// Warns of rings that are placed by themselves, for a good part, and sewn together far from how they lie (G0552). `place`
+/// Warns of rings that are placed by themselves, at least half of each, and sewn together far from how they lie (G0552). `place`
 /// [n_vertices] is where the panels lie before seams bring them together, m, of those that are `done` [n_panels].
 Findings turned_rings(const std::vector<SewnSides>& sides, const model::Model& model, const std::vector<bool>& done,
                       const std::vector<model::Vector3d>& place);

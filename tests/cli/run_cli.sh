@@ -355,7 +355,8 @@ ok
 grep -q '"G0811"' outside_out/report.json || fail "the report does not hold what is wrong"
 grep -v '^drape' outside.garment >flat.garment
 run 0 check --model flat.garment
-silent err.txt
+ok
+grep -q 'G0609' err.txt && fail "a start is told that nothing drapes"
 
 # ---- a study: a round for each value, side by side
 { grep -v '^drape\|^expect' square.garment
