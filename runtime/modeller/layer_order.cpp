@@ -18,6 +18,7 @@ constexpr double kReachAtRest = 0.03;    // m: worn layers hang a few centimetre
 constexpr double kReachAtStart = 0.1;    // m: panels are placed farther apart than they will hang
 constexpr double kLeastTogether = 0.1;   // of the smaller panel: less of it says nothing of the panel
 constexpr double kMostWrong = 0.5;       // of what lies together
+constexpr double kBesideNearest = 2e-3;  // m: so far beside its box a triangle may be the nearest one
 constexpr double kBesideTriangle = 0.1;  // weights: over an outer ridge the normals of two triangles leave a gap
 
 /// The surface of one panel as it lies, to be asked how high places lie over it.
@@ -29,15 +30,17 @@ class LyingPanel {
   /// Height of p over the nearest triangle that has it straight over or under it, on the face's side positive, m; infinite where
   /// none has within `reach`.
   double height_of(const Vector3d& p, double reach) const {
-    double height = std::numeric_limits<double>::infinity();
-    geometry::ClosedBox box;
-    box.grow(Vector3d(p.array() - reach));
-    box.grow(Vector3d(p.array() + reach));
-    tree_.visit([&](const geometry::ClosedBox& other) { return box.meets(other); },
-                [&](std::int32_t k) {
-                  const double h = height_over(first_ + static_cast<std::size_t>(k), p);
-                  if (std::abs(h) <= reach && std::abs(h) < std::abs(height)) height = h;
-                });
+    double height = std::numeric_limits<double>::infinity(), within = reach;
+    tree_.visit(
+        [&](const geometry::ClosedBox& box) {
+          return ((box.low - p).array() <= within).all() && ((p - box.high).array() <= within).all();
+        },
+        [&](std::int32_t k) {
+          const double h = height_over(first_ + static_cast<std::size_t>(k), p);
+          if (std::abs(h) > reach || std::abs(h) >= std::abs(height)) return;
+          height = h;
+          within = std::min(reach, std::abs(h) + kBesideNearest);
+        });
     return height;
   }
 
