@@ -369,6 +369,13 @@ ok
 [ "$(grep -c 'at_rest\|at rest' study_out/study_wide.csv)" -eq 2 ] || fail "the table of the study has not two rows: $(cat study_out/study_wide.csv)"
 ok
 cmp -s study_out/wide=8cm/cloth.obj study_out/wide=12cm/cloth.obj && fail "both rounds are the same"
+# All rounds speak of the same lines: what goes wrong in one of them names it.
+mkdir rounds
+sed 's/mass < 1 kg/area(cloth) < 110 cm^2/' study.garment >rounds/study.garment
+run 1 test rounds
+says '`area(cloth) < 110 cm^2` does not hold, in the round wide = 12 cm'
+ok
+grep -q 'round wide = 8 cm' out.txt && fail "a round that holds is told"
 # What the script measures is asked in each round and stands in the table; a list gives its numbers.
 sed 's/over 8 cm, 12 cm/over steps(8 cm .. 12 cm, 2 cm)/' study.garment >study_list.garment
 echo 'measure heavy = mass(cloth)' >>study_list.garment
