@@ -8,12 +8,12 @@
 #include "interpreter/cli/project.hpp"
 #include "interpreter/language/construct_table.hpp"
 #include "interpreter/language/interpret.hpp"
+#include "interpreter/language/modelling.hpp"
 #include "interpreter/language/script_values.hpp"
 #include "interpreter/session/drape_act.hpp"
 #include "interpreter/session/drape_answers.hpp"
 #include "runtime/base/number.hpp"
 #include "runtime/model/dump.hpp"
-#include "runtime/modeller/modeller.hpp"
 #include "runtime/modeller/unmodelled.hpp"
 #include "runtime/results/report.hpp"
 #include "runtime/simulator/moved_bodies.hpp"
@@ -127,8 +127,7 @@ void interpret_golden(GoldenOutcome& o, const std::string& path, grammar::Source
   if (!study) o.values = interpreter::values_by_line(result, o.sources);
   modeller::ModelResult built;
   if (stage == GoldenStage::check) built.findings = modeller::find_unmodelled(result.garment, Severity::warning);
-  if (built.findings.empty()) built = modeller::build_model(result.garment, result.bodies);
-  interpreter::leave_out_starts(built.findings, result.acts);
+  if (built.findings.empty()) built = interpreter::model_of(result.garment, result.bodies, result.acts);
   if (!study || !built.model) add(o.diagnostics, interpreter::to_diagnostics(built.findings, result.origins));
   if (built.model && stage == GoldenStage::model) o.text = model::summary_text(*built.model);
   if (built.model && stage == GoldenStage::run && !has_error(o.diagnostics, first)) {
@@ -139,7 +138,10 @@ void interpret_golden(GoldenOutcome& o, const std::string& path, grammar::Source
       if (const auto* vary = std::get_if<interpreter::VaryAct>(&act.act))
         for (const std::string& value : vary->values) {
           if (host.interrupted()) return;
+          const std::size_t before = o.diagnostics.size();
           interpret_golden(o, path, id, stage, libraries, host, interpreter::Study{vary->ordinal, vary->target, value});
+          for (std::size_t k = before; k < o.diagnostics.size(); ++k)  // all rounds speak of the same lines
+            o.diagnostics[k].message += fmt::format(", in the round {} = {}", vary->target, value);
         }
   }
 }

@@ -30,8 +30,8 @@ constexpr const char* kExamples = R"(examples:
   garment export tee.garment -o tee.dxf         its flat pattern for another system
 )";
 
-constexpr const char* kFooter = R"(exit codes: 0 ok, 1 diagnostics, 2 usage, 3 input or output, 4 the simulation failed, 5 an expect failed,
-130 interrupted)";
+constexpr const char* kFooter = R"(exit codes: 0 ok, 1 diagnostics, 2 usage, 3 input or output, 4 the simulation failed, 5 an expect failed
+or a layer came to rest on the wrong side, 130 interrupted)";
 
 constexpr const char* kLspHelp = R"(An editor starts this command and speaks with it; a person does not. It gives diagnostics (those of
 `garment check`), hover, completion, signatures, definitions, uses, seam partners ("go to implementation", and the request
@@ -179,7 +179,8 @@ int main(int argc, char** argv) {
   repl_command->add_option("--max-steps", o.repl.max_steps, "let a drape give up after so many steps")->check(CLI::Range(1, 1000000));
   repl_command->add_option("--threads", o.threads, "threads to use (results do not depend on it)")->check(CLI::Range(1, 256));
   repl_command->footer("With input that is no terminal the entries are echoed, and the exit code is that of the first entry that went\n"
-                       "wrong: 1 refused, 4 the simulation failed or a file was not written, 5 an expect failed.");
+                       "wrong: 1 refused, 4 the simulation failed or a file was not written, 5 an expect failed or a\n"
+                       "layer lies on the wrong side.");
   auto* explain_command = app.add_subcommand("explain", "the long text of diagnostic codes; what words of the language mean");
   auto* topics_option =
       explain_command->add_option("topics", o.topics, "codes as G0312, or keywords, clauses and functions as seam, ease, length");

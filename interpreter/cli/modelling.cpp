@@ -1,6 +1,6 @@
 #include "interpreter/cli/modelling.hpp"
 
-#include "runtime/modeller/modeller.hpp"
+#include "interpreter/language/modelling.hpp"
 #include "runtime/modeller/unmodelled.hpp"
 
 namespace garment::cli {
@@ -15,8 +15,7 @@ void show_findings(const Findings& findings, const Project& project, Terminal& t
 }  // namespace
 
 std::optional<model::Model> build_model(Project& project, Terminal& terminal) {
-  modeller::ModelResult built = modeller::build_model(project.result.garment, project.result.bodies);
-  if (!project.is_pattern) interpreter::leave_out_starts(built.findings, project.result.acts);
+  modeller::ModelResult built = interpreter::model_of(project.result.garment, project.result.bodies, project.result.acts);
   show_findings(built.findings, project, terminal);
   if (has_errors(built.findings)) return std::nullopt;
   return std::move(built.model);

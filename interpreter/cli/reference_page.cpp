@@ -43,7 +43,7 @@ std::string reference_page(const CLI::App& app, const std::string& stdlib_dir, H
     text += command_text(*command);
   return text +
          "Exit codes: 0 ok, 1 diagnostics, 2 wrong usage, 3 input or output, 4 the simulation failed, 5 an "
-         "`expect` failed, 130 interrupted.\n";
+         "`expect` failed or a layer lies on the wrong side, 130 interrupted.\n";
 }
 
 }  // namespace garment::cli

@@ -117,6 +117,7 @@ struct Run {
     if (came_to == kSimulationFailed) name_last_state(told, options, out.folder());
     show(told, project.sources, terminal);
     code = std::max(code, came_to);
+    if (code == kOk && session::rests_otherwise(report.drape)) code = kExpectFailed;
   }
 
   /// What the acts before the drape at hand have left, in a checkpoint. A release is made again.

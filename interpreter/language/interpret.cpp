@@ -159,13 +159,6 @@ bool is_library(const grammar::Script& script) {
          });
 }
 
-void leave_out_starts(Findings& findings, const std::vector<Act>& acts) {
-  const bool drapes = std::any_of(acts.begin(), acts.end(), [](const Act& act) {
-    return std::holds_alternative<DrapeAct>(act.act) || std::holds_alternative<VaryAct>(act.act);
-  });
-  if (!drapes) std::erase_if(findings, [](const Finding& finding) { return finding.code == "G0608"; });
-}
-
 Interpretation interpret(grammar::Sources& sources, grammar::SourceId source, Host& host,
                          const InterpretOptions& options) {
   Interpretation result;

@@ -92,9 +92,6 @@ struct Act {
   grammar::Span span;
 };
 
-/// Takes out what only a drape minds: that cloth starts through cloth (G0608) where the script drapes nothing. Patterns may lie piled up.
-void leave_out_starts(Findings& findings, const std::vector<Act>& acts);
-
 struct Parameter {
   std::string name, doc, value, standard;  ///< value and default as text
   std::string range;                       ///< "30 cm .. 110 cm", "\"slim\", \"loose\"" or empty

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "interpreter/language/modelling.hpp"
 #include "interpreter/language/program.hpp"
 #include "runtime/base/number.hpp"
-#include "runtime/modeller/modeller.hpp"
 #include "runtime/modeller/unmodelled.hpp"
 
 namespace garment::lsp {
@@ -200,8 +200,7 @@ void Documents::check_model(Document& document) {
       if (built.body) bodies.push_back(std::move(*built.body));
     }
     if (bodies.size() == result.garment.bodies.size()) {
-      Findings more = modeller::build_model(result.garment, bodies).findings;
-      interpreter::leave_out_starts(more, result.acts);
+      const Findings more = interpreter::model_of(result.garment, bodies, result.acts).findings;
       findings.insert(findings.end(), more.begin(), more.end());
     }
   }

@@ -5,6 +5,7 @@
 #include "interpreter/session/models.hpp"
 #include "runtime/model/motion.hpp"
 #include "runtime/modeller/holds.hpp"
+#include "runtime/modeller/layer_order.hpp"
 #include "runtime/modeller/modeller.hpp"
 #include "runtime/simulator/drape_levels.hpp"
 #include "runtime/simulator/motion.hpp"
@@ -69,7 +70,18 @@ simulator::DrapeReport perform_drape(const interpreter::DrapeAct& act, const Dra
   simulator::DrapeSettings settings = scene.settings;
   settings.settle = act.settle;
   take_stated(scene.script, scene.bodies, settings);
-  return to_rest(scene, settings, state);
+  simulator::DrapeReport report = to_rest(scene, settings, state);
+  look_at_layers(scene.script.garment, scene.model, state, report);
+  return report;
+}
+
+void look_at_layers(const design::Garment& garment, const model::Model& model, const model::State& state, simulator::DrapeReport& report) {
+  if (report.status != simulator::DrapeStatus::at_rest) return;
+  for (Finding& finding : modeller::rested_out_of_order(garment, model, state.position)) report.findings.push_back(std::move(finding));
+}
+
+bool rests_otherwise(const simulator::DrapeReport& report) {
+  return report.status == simulator::DrapeStatus::at_rest && has_errors(report.findings);
 }
 
 Findings let_go(const interpreter::ReleaseAct& act, const std::vector<body::Body>& bodies, design::Garment& holding, model::Model& model) {

@@ -25,6 +25,12 @@ void take_stated(const interpreter::Interpretation& script, const std::vector<bo
 /// Drapes `state`. To rest, moving clamps and bodies stand where they are at the state's time.
 simulator::DrapeReport perform_drape(const interpreter::DrapeAct& act, const DrapeScene& scene, model::State& state);
 
+/// Adds to the report what lies on the wrong side of what it is declared over or under, where the garment came to rest (G0811).
+void look_at_layers(const design::Garment& garment, const model::Model& model, const model::State& state, simulator::DrapeReport& report);
+
+/// At rest, as physics goes, but not as the script says (an error among the findings).
+bool rests_otherwise(const simulator::DrapeReport& report);
+
 /// Lets a pin or clamp go: `holding` is the garment less what was released so far, whose holds the model gets; all else of it stays.
 /// Returns why it could not, with both as they were but for what no longer holds.
 Findings let_go(const interpreter::ReleaseAct& act, const std::vector<body::Body>& bodies, design::Garment& holding, model::Model& model);

@@ -111,6 +111,7 @@ class Session {
   Answer act(const Entry& entry);
   Answer run_acts(Evaluated& evaluated, const std::vector<interpreter::Act>& acts);
   Answer perform(Evaluated& evaluated, const interpreter::Act& act);
+  std::string told_of_start() const;
   Answer drape_now(simulator::Settle settle);
   Answer release(const std::string& name);
   Answer save_files(const interpreter::SaveAct& act);

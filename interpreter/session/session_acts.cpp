@@ -24,7 +24,9 @@ namespace {
 
 using interpreter::Act;
 
-Outcome outcome_of(simulator::DrapeStatus status) {
+Outcome outcome_of(const simulator::DrapeReport& report) {
+  const simulator::DrapeStatus status = report.status;
+  if (rests_otherwise(report)) return Outcome::unmet;
   if (status == simulator::DrapeStatus::at_rest || status == simulator::DrapeStatus::ran) return Outcome::done;
   return status == simulator::DrapeStatus::interrupted ? Outcome::interrupted : Outcome::failed;
 }
@@ -143,8 +145,14 @@ Answer Session::perform(Evaluated& evaluated, const Act& act) {
           fmt::format("{} {}: found {}\n", r.passed ? "ok    " : "FAILED", r.text, r.found)};
 }
 
+/// What a drape from the start minds; the script itself has none, so that it was not told before.
+std::string Session::told_of_start() const {
+  if (stage_.shape.draped || stage_.shape.carried) return "";
+  return shown(stage_.modelled->of_start, stage_.evaluated->sources, Severity::warning);
+}
+
 Answer Session::drape_now(simulator::Settle settle) {
-  Answer answer;
+  Answer answer{Outcome::done, told_of_start()};
   Stage next = stage_;
   next.entry = acts_entry_;
   next.shape.settle = settle;
@@ -156,7 +164,7 @@ Answer Session::drape_now(simulator::Settle settle) {
 /// Lets the garment move for a time, from where it hangs.
 Answer Session::move_now(Evaluated& evaluated, const interpreter::DrapeAct& act, grammar::Span span) {
   const double begun = host_.seconds();
-  Answer answer;
+  Answer answer{Outcome::done, told_of_start()};
   Stage next = stage_;
   next.entry = acts_entry_;
   const model::Model& model = *next.modelled->model;
@@ -168,11 +176,11 @@ Answer Session::move_now(Evaluated& evaluated, const interpreter::DrapeAct& act,
   next.shape.draped = true;
   next.shape.carried = false;
   next.shape.state = std::move(state);
-  answer.text = shown(told_by(next.shape.report, evaluated.result, span), evaluated.sources, Severity::warning);
+  answer.text += shown(told_by(next.shape.report, evaluated.result, span), evaluated.sources, Severity::warning);
   answer.text += fmt::format("{}: {} s in {} steps{}\n", results::status_name(next.shape.report.status),
                              format_number(next.shape.report.motion.seconds, 4), next.shape.report.steps,
                              seconds_since(begun));
-  answer.outcome = outcome_of(next.shape.report.status);
+  answer.outcome = outcome_of(next.shape.report);
   take(std::move(next));
   return answer;
 }
@@ -215,13 +223,14 @@ Outcome Session::drape(Stage& stage, bool from_present, std::string& text) {
                   Severity::warning);
     text += summary(model, *state, stage.shape.report) + seconds_since(begun) + '\n';
     stage.shape.state = std::move(state);
-    return outcome_of(stage.shape.report.status);
+    return outcome_of(stage.shape.report);
   }
   std::vector<model::Model> coarse;
   if (!from_present || simulator::far_from_rest(model, state->position, stage.shape.strained))
     coarse = coarse_models(result.garment, result.bodies, model, !from_present);
   stage.shape.report = from_present ? simulator::drape_again(coarse, model, result.bodies, *state, settings)
                                     : simulator::drape_levels(coarse, model, result.bodies, *state, settings);
+  look_at_layers(result.garment, model, *state, stage.shape.report);
   stage.shape.draped = true;
   stage.shape.carried = false;
   text += shown(interpreter::to_diagnostics(stage.shape.report.findings, result.origins),
@@ -232,7 +241,7 @@ Outcome Session::drape(Stage& stage, bool from_present, std::string& text) {
   stage.shape.state = std::move(state);
   if (stage.shape.report.status == simulator::DrapeStatus::interrupted)
     text += "stopped; the shape is kept, `drape until rest` goes on from it\n";
-  return outcome_of(stage.shape.report.status);
+  return outcome_of(stage.shape.report);
 }
 
 /// The shape of `before` on the model of `stage`, draped on where that is wanted.

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "interpreter/language/modelling.hpp"
 #include "runtime/model/dump.hpp"
-#include "runtime/modeller/modeller.hpp"
 #include "runtime/modeller/unmodelled.hpp"
 
 namespace garment::session {
@@ -34,12 +34,14 @@ Modelled Workshop::build(const Evaluated& evaluated, const Released& released, b
   }
   modeller::ModelOptions options;
   options.dress = dress;
+  Findings of_start;
   modeller::ModelResult built =
-      released.empty() ? modeller::build_model(result.garment, result.bodies, options)
-                       : modeller::build_model(less(result.garment, released), result.bodies, options);
+      released.empty() ? interpreter::model_of(result.garment, result.bodies, result.acts, options, &of_start)
+                       : interpreter::model_of(less(result.garment, released), result.bodies, result.acts, options, &of_start);
   if (!dress && built.model && start_matters(*built.model)) return build(evaluated, released);
   modelled.dressed = dress;
   modelled.diagnostics = interpreter::to_diagnostics(built.findings, result.origins);
+  modelled.of_start = interpreter::to_diagnostics(of_start, result.origins);
   modelled.failed = has_errors(built.findings);
   if (!modelled.failed) modelled.model = std::move(built.model);
   return modelled;

@@ -24,6 +24,7 @@ struct Evaluated {
 struct Modelled {
   std::optional<model::Model> model;
   grammar::Diagnostics diagnostics;  ///< places in the sources of its Evaluated
+  grammar::Diagnostics of_start;     ///< what a drape from the start minds, where the script has none: told by the first one typed
   bool failed = false;               ///< there are errors (not only things that cannot be modelled yet)
   bool dressed = true;               ///< the start is kept out of the bodies; otherwise nobody may use it
 };

@@ -44,6 +44,7 @@ struct Matching {
   bool report = true;  ///< has a SeamChain in the model
   double lap = 0, slack = 0;  ///< m; with either the sides are tied
   double tension = 0;         ///< of the seam's thread; design::SeamFinish
+  bool rings = false;         ///< every side is closed
   bool tied() const { return lap > 0 || slack > 0; }
 };
 

@@ -104,6 +104,7 @@ void collect_seam(const design::Garment& garment, const design::Seam& seam, cons
   matching.slack = seam.finish.slack;
   matching.tension = seam.finish.tension;
   matching.merge = matching.report = !matching.tied();
+  matching.rings = std::all_of(seam.sides.begin(), seam.sides.end(), [](const design::SeamSide& side) { return side.closed; });
   for (const design::SeamSide& declared : seam.sides) {
     Side side;
     for (std::size_t k = 0; k < declared.parts.size(); ++k) {

@@ -16,6 +16,7 @@
 #include "runtime/modeller/holds.hpp"
 #include "runtime/modeller/inner_friction.hpp"
 #include "runtime/modeller/inner_lines.hpp"
+#include "runtime/modeller/layer_order.hpp"
 #include "runtime/modeller/pads.hpp"
 #include "runtime/modeller/placement.hpp"
 #include "runtime/modeller/pressing.hpp"
@@ -208,7 +209,9 @@ ModelResult build_model(const design::Garment& garment, const std::vector<body::
   if (options.coarsen <= 1) findings.insert(findings.end(), unreached.begin(), unreached.end());
   // What a tack goes to depends on where the panels lie: the model must not depend on whether they were dressed for it.
   const bool dress = options.dress || !garment.tacks.empty();
-  if (!place_panels(garment, bodies, model, findings, dress)) return result;
+  if (!place_panels(garment, bodies, sides, model, findings, dress)) return result;
+  if (options.dress && options.coarsen <= 1)
+    for (Finding& finding : started_out_of_order(garment, model)) findings.push_back(std::move(finding));
   add_closures(garment, model, findings);
   add_seam_ties(sides, model, findings);
   add_holds(garment, bodies, outlines, borders, panels, model, findings);

@@ -13,6 +13,7 @@
 #include "runtime/modeller/flat_start.hpp"
 #include "runtime/modeller/placement_carry.hpp"
 #include "runtime/modeller/placement_layers.hpp"
+#include "runtime/modeller/ring_turn.hpp"
 #include "runtime/modeller/wrap_curve.hpp"
 
 namespace garment::modeller {
@@ -366,8 +367,8 @@ void clear_bodies(const std::vector<body::Body>& bodies, bool any_rigid, model::
 
 }  // namespace
 
-bool place_panels(const design::Garment& garment, const std::vector<body::Body>& bodies, model::Model& model,
-                  Findings& findings, bool dress) {
+bool place_panels(const design::Garment& garment, const std::vector<body::Body>& bodies, const std::vector<SewnSides>& sides,
+                  model::Model& model, Findings& findings, bool dress) {
   Workspace w{garment, bodies, model, findings, std::vector<Vector3d>(model.n_vertices(), Vector3d::Zero()),
               std::vector<bool>(garment.panels.size(), false), flat_start(garment, model)};
   bool ok = place_rings(w);
@@ -391,6 +392,7 @@ bool place_panels(const design::Garment& garment, const std::vector<body::Body>&
       if (dress) clear_panels(garment, b, model, w.place);
     }
   if (any_rigid && any_person) part_panels(garment, model, w.place);
+  for (Finding& finding : turned_rings(sides, model, w.done, w.place)) findings.push_back(std::move(finding));
   const bool spread = dress && any_rigid && any_person;
   if (spread && ok) {  // what is carried on goes on from there
     spread_seams(garment, model, w.done, {}, w.place);

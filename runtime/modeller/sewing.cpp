@@ -60,7 +60,7 @@ std::vector<Index> sew(const std::vector<Matching>& matchings, const Matched& ma
   std::vector<std::vector<Index>> chains(matchings.size());
   for (std::size_t m = 0; m < matchings.size(); ++m) {
     const std::vector<StretchTuple>& tuples = matched.tuples[m];
-    if (matchings[m].tied() || matchings[m].tension != 0) {
+    if (matchings[m].tied() || matchings[m].tension != 0 || matchings[m].rings) {
       SewnSides sewn{&matchings[m], std::vector<std::vector<Index>>(matchings[m].sides.size())};
       for (const StretchTuple& tuple : tuples) {
         bool on = true;  // all sides go on from where they were: not over a dart, not on another panel

@@ -344,6 +344,20 @@ complains "cannot be written yet"
 sed 's/^expect.*/release two\ndrape until rest settle preview\nexpect position(two).y < 1.06 m\nexpect position(one).y == 1.1 m within 1 mm/' \
   square.garment >released.garment
 run 0 run released.garment --no-pictures -o released_out
+# ---- a layer at rest on the wrong side: what comes after the drape is done, and the exit code is that of an `expect` that failed
+cp "$2/tests/golden/run/lining_outside.garment" outside.garment
+echo 'save "outside.obj"' >>outside.garment
+run 5 run outside.garment --no-pictures -o outside_out
+complains "warning[G0609]: \`lining\` is declared under \`front\`, but starts over it"
+complains "error[G0811]: \`lining\` is declared under \`front\`, but came to rest over it"
+exists outside_out/outside.obj
+ok
+grep -q '"G0811"' outside_out/report.json || fail "the report does not hold what is wrong"
+grep -v '^drape' outside.garment >flat.garment
+run 0 check --model flat.garment
+ok
+grep -q 'G0609' err.txt && fail "a start is told that nothing drapes"
+
 # ---- a study: a round for each value, side by side
 { grep -v '^drape\|^expect' square.garment
   echo 'vary wide over 8 cm, 12 cm { drape until rest settle preview; expect mass < 1 kg; save "cloth.obj" }'; } >study.garment
@@ -355,6 +369,13 @@ ok
 [ "$(grep -c 'at_rest\|at rest' study_out/study_wide.csv)" -eq 2 ] || fail "the table of the study has not two rows: $(cat study_out/study_wide.csv)"
 ok
 cmp -s study_out/wide=8cm/cloth.obj study_out/wide=12cm/cloth.obj && fail "both rounds are the same"
+# All rounds speak of the same lines: what goes wrong in one of them names it.
+mkdir rounds
+sed 's/mass < 1 kg/area(cloth) < 110 cm^2/' study.garment >rounds/study.garment
+run 1 test rounds
+says '`area(cloth) < 110 cm^2` does not hold, in the round wide = 12 cm'
+ok
+grep -q 'round wide = 8 cm' out.txt && fail "a round that holds is told"
 # What the script measures is asked in each round and stands in the table; a list gives its numbers.
 sed 's/over 8 cm, 12 cm/over steps(8 cm .. 12 cm, 2 cm)/' study.garment >study_list.garment
 echo 'measure heavy = mass(cloth)' >>study_list.garment

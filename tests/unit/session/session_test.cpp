@@ -278,3 +278,45 @@ TEST_CASE("the script's own acts run from the placed panels, as one step") {
   prompt.enter(":undo 2");
   CHECK(prompt.session.state_hash() == start);
 }
+
+namespace {
+
+/// Two squares that hang from clamps, the lining before the front that it is declared under.
+const char* kLiningOutside = R"(garment 1 "lining outside"
+use fabrics
+panel front of fabrics.satin {
+  outline from (0, 0) {
+    edge low to (10 cm, 0) free
+    edge right_side to (10 cm, 10 cm) free
+    edge high to (0, 10 cm) free
+    close left_side free
+  }
+  resolution 2 cm
+}
+panel lining of fabrics.satin like front under front {}
+clamp one: front.high
+clamp two: lining.high
+place front at (0, 1 m, 0)
+place lining at (0, 1 m, 1 cm)
+)";
+
+}  // namespace
+
+TEST_CASE("a start that only a drape minds is told where the script drapes, else by the first drape that is typed") {
+  Prompt drapes(std::string(kLiningOutside) + "drape until rest settle preview\n");
+  CHECK(has(drapes.last.text, "warning[G0609]"));
+  CHECK_FALSE(has(drapes.enter("drape until rest settle preview", Outcome::unmet), "warning[G0609]"));
+
+  Prompt lies(kLiningOutside);
+  CHECK_FALSE(has(lies.last.text, "G0609"));
+  CHECK(has(lies.enter("drape until rest settle preview", Outcome::unmet), "warning[G0609]"));
+  CHECK_FALSE(has(lies.enter("drape until rest settle preview", Outcome::unmet), "G0609"));
+}
+
+TEST_CASE("a layer that comes to rest on the wrong side is told by each drape, and after an edit") {
+  Prompt prompt(kLiningOutside);
+  CHECK(has(prompt.enter("drape until rest settle preview", Outcome::unmet), "error[G0811]: `lining` is declared under `front`"));
+  CHECK(has(prompt.last.text, "at rest: "));
+  CHECK(has(prompt.enter("front.resolution = 1 cm", Outcome::unmet), "error[G0811]"));
+  CHECK(has(prompt.enter("expect strain(all) < 50%"), "ok     "));
+}
