@@ -13,6 +13,7 @@
 #include "runtime/modeller/flat_start.hpp"
 #include "runtime/modeller/placement_carry.hpp"
 #include "runtime/modeller/placement_flared.hpp"
+#include "runtime/modeller/placement_laps.hpp"
 #include "runtime/modeller/placement_layers.hpp"
 #include "runtime/modeller/wrap_curve.hpp"
 
@@ -178,6 +179,9 @@ bool wrap_ring(Workspace& w, const Ring& ring) {
   }
   double center = (x_low + x_high) / 2;
   double needed = ring_width(w, ring);
+  std::vector<OnRing> on_ring;
+  for (std::size_t k = 0; k < ring.panels.size(); ++k) on_ring.push_back({ring.panels[k], middle_x(w, ring.panels[k]), ring.base[k]});
+  lift_laps(w, on_ring);
   double offset = ring.offset;
   // A garment wider than the body stands off it evenly: a girth line grown by d is longer by 2 pi d.
   double length = WrapCurve(points, center, offset).length();
