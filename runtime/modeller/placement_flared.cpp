@@ -22,6 +22,8 @@ constexpr double kSteeper = kPi / 36;         // a try
 constexpr double kLeastOffset = 4e-3;         // m
 constexpr double kClear = 3e-3;               // m, of all particles from the body
 constexpr double kSounded = 0.15;             // m, how deep in the body a particle is found
+constexpr double kNoArc = 5e-3;               // off a circle, of the arc's length: shoulders that slope to a neck are none
+constexpr double kLayers = 0.5;               // of the grid's spacing, between layers whose facets bend otherwise
 constexpr double kWidest = 0.75;              // of the arc's length, that a panel reaches beside its middle
 constexpr double kHanging = kPi / 12;         // of the cone that skirts come to hang in, off the upright
 constexpr int kFewestFlutes = 3;
@@ -43,17 +45,17 @@ struct ArcPiece {
   double length;
 };
 
-std::vector<ArcPiece> pieces_of_arc(const design::Panel& panel) {
-  std::vector<ArcPiece> pieces;
+void add_pieces(const design::Edge& edge, std::vector<ArcPiece>& pieces) {
+  const std::vector<geometry::Point2> line = edge.curve.polyline(1e-5);
+  for (std::size_t i = 1; i < line.size(); ++i) pieces.push_back({(line[i] + line[i - 1]) / 2, (line[i] - line[i - 1]).norm()});
+}
+
+/// The edge that the panel is placed by goes by this name in both halves.
+bool is_hung_by(const design::Panel& panel, const design::Edge& edge) {
   std::string name = panel.placement.edge;
-  for (const char* half : {"left.", "right."})  // one half stands for both
+  for (const char* half : {"left.", "right."})
     if (panel.fold_x && name.starts_with(half)) name.erase(0, std::string(half).size());
-  for (const design::Edge& e : panel.edges) {
-    if (e.name != name && e.name != "left." + name && e.name != "right." + name) continue;
-    const std::vector<geometry::Point2> line = e.curve.polyline(1e-5);
-    for (std::size_t i = 1; i < line.size(); ++i) pieces.push_back({(line[i] + line[i - 1]) / 2, (line[i] - line[i - 1]).norm()});
-  }
-  return pieces;
+  return edge.name == name || edge.name == "left." + name || edge.name == "right." + name;
 }
 
 /// To 1e-9, of metres or radians.
@@ -66,8 +68,8 @@ double rounded(double x) {
 /// are straight, or no arc.
 bool fit_circle(const std::vector<ArcPiece>& pieces, Fan& fan) {
   constexpr double kStraight = 10;    // radii over lengths
-  constexpr double kNoArc = 5e-3;     // rms of distances, over the length: shoulders that slope to a neck are none
   Vector2d mean = Vector2d::Zero();
+  fan.length = 0;
   for (const ArcPiece& p : pieces) fan.length += p.length;
   if (!(fan.length > 0)) return false;
   for (const ArcPiece& p : pieces) mean += p.length / fan.length * p.middle;
@@ -94,6 +96,26 @@ bool fit_circle(const std::vector<ArcPiece>& pieces, Fan& fan) {
     error += p.length / fan.length * off * off;
   }
   return std::sqrt(error) < kNoArc * fan.length;
+}
+
+/// The arc of a panel, with the edges that go on along the same circle. Empty where it is none.
+std::vector<ArcPiece> fit_arc(const design::Panel& panel, Fan& fan) {
+  std::vector<ArcPiece> pieces;
+  for (const design::Edge& e : panel.edges)
+    if (is_hung_by(panel, e)) add_pieces(e, pieces);
+  if (!fit_circle(pieces, fan)) return {};
+  const std::size_t named = pieces.size();
+  for (const design::Edge& e : panel.edges) {
+    if (is_hung_by(panel, e)) continue;
+    std::vector<ArcPiece> more;
+    add_pieces(e, more);
+    const bool on_circle = std::all_of(more.begin(), more.end(), [&](const ArcPiece& p) {
+      return std::abs((p.middle - fan.center).norm() - fan.radius) < kNoArc * fan.length;
+    });
+    if (on_circle) pieces.insert(pieces.end(), more.begin(), more.end());
+  }
+  if (pieces.size() > named && !fit_circle(pieces, fan)) return {};
+  return pieces;
 }
 
 /// Angle from straight down, towards +x.
@@ -125,10 +147,10 @@ std::vector<int> turns_of(const model::Model& model, const model::PanelRange& ra
 
 std::optional<Fan> fan_of(const Workspace& w, std::size_t panel) {
   const design::Panel& p = w.garment.panels[panel];
-  const std::vector<ArcPiece> pieces = pieces_of_arc(p);
   Fan fan;
   fan.panel = panel;
-  if (pieces.empty() || !fit_circle(pieces, fan)) return std::nullopt;
+  const std::vector<ArcPiece> pieces = fit_arc(p, fan);
+  if (pieces.empty()) return std::nullopt;
   constexpr double kOnFold = 1e-6;  // m
   if (p.fold_x && std::abs(fan.center.x() - *p.fold_x) < kOnFold) fan.center.x() = *p.fold_x;
   const model::PanelRange& range = w.model.panels[panel];
@@ -251,6 +273,7 @@ class Flare {
 
  private:
   bool lies_on_another(const Fan& fan) const;
+  double lift(const Fan& fan, Index vertex) const;
   double middle_share(const Fan& fan) const;
   Vector3d place(double middle, double along, double off, double lift, const FlutedCone& cone) const;
 
@@ -287,8 +310,11 @@ Flare::Flare(Workspace& w, const body::Body& body, const std::vector<std::size_t
   center_ = (low + high) / 2;
   const double bare = WrapCurve(points, center_, kLeastOffset).length();
   if (length_ < kLeastRing * bare) return;
+  double under = 0;  // m, of linings
+  for (const Fan& fan : fans_)
+    for_each_vertex(w.model, fan.panel, [&](Index v) { under = std::max(under, -lift(fan, v)); });
   // A ring grown by d is longer by 2 pi d. It is as long as the cloth, wherever the panels were told to lie.
-  ring_.emplace(points, center_, kLeastOffset + std::max(0.0, length_ - bare) / (2 * kPi));
+  ring_.emplace(points, center_, kLeastOffset + std::max(under, (length_ - bare) / (2 * kPi)));
   flutes_ = count_flutes(w, *longest, ring_->length(), off_, length_ + turn_ * off_);
 }
 
@@ -303,6 +329,14 @@ bool Flare::lies_on_another(const Fan& fan) const {
     return s.panel == static_cast<int>(fan.panel) &&
            std::any_of(fans_.begin(), fans_.end(), [&](const Fan& f) { return f.panel == static_cast<std::size_t>(s.other); });
   });
+}
+
+/// How far a vertex lies off the cone, m.
+double Flare::lift(const Fan& fan, Index vertex) const {
+  const double z = w_.flat[vertex].z();
+  if (z == 0 || !lies_on_another(fan)) return z;
+  const double least = kLayers * w_.garment.panels[fan.panel].resolution;
+  return z < 0 ? std::min(z, -least) : std::max(z, least);
 }
 
 /// Where the middle of a panel's arc lies on the ring, in (-0.5, 0.5]: two of a pair on one part lie side by side.
@@ -340,7 +374,7 @@ bool Flare::lay(double slope) {
     const Index first = w_.model.panels[fan.panel].first_vertex;
     for_each_vertex(w_.model, fan.panel, [&](Index v) {
       const auto k = static_cast<std::size_t>(v - first);
-      w_.place[v] = place(middle, fan.along[k], fan.off[k], w_.flat[v].z(), cone);
+      w_.place[v] = place(middle, fan.along[k], fan.off[k], lift(fan, v), cone);
       const auto hit = body_.closest(w_.place[v], kSounded);
       clear = clear && (!hit || hit->distance >= kClear);
     });

@@ -190,8 +190,12 @@ TEST_CASE("circle skirts begin below the waist and inside of the arms, hardly st
       }
 }
 
-TEST_CASE("a whole circle in four gores, and one held by a band, begin as one in two pieces does") {
+TEST_CASE("a whole circle in four gores or in one piece, lined or held by a band, begins as one in two pieces does") {
   check_flared(started(script_of("/tests/wardrobe/gored_circle.garment")));
+  check_flared(started(script_of("/tests/wardrobe/circle_of_one_piece.garment")));
+  const Started lined = started(script_of("/tests/wardrobe/lined_circle.garment"));
+  check_clear(lined);
+  CHECK(without_image(lined.model) == 0);
   check_clear(started(script_of("/tests/wardrobe/banded_circle.garment")));
 }
 
