@@ -12,6 +12,8 @@
 #include "runtime/modeller/dressing.hpp"
 #include "runtime/modeller/flat_start.hpp"
 #include "runtime/modeller/placement_carry.hpp"
+#include "runtime/modeller/placement_flared.hpp"
+#include "runtime/modeller/placement_laps.hpp"
 #include "runtime/modeller/placement_layers.hpp"
 #include "runtime/modeller/ring_turn.hpp"
 #include "runtime/modeller/wrap_curve.hpp"
@@ -37,23 +39,13 @@ Extent extent_of(const Workspace& w, std::size_t panel) {
   return e;
 }
 
-/// The other one of a pair, on the same part of the same body, mirrored in x = 0.
+/// There is another one of a pair, mirrored in x = 0.
 bool has_image(const Workspace& w, std::size_t panel) {
-  const design::Panel& p = w.garment.panels[panel];
   constexpr double kSame = 1e-6;  // m
-  for (const auto& [own, other] : {std::pair{".left", ".right"}, std::pair{".right", ".left"}}) {
-    if (!p.name.ends_with(own)) continue;
-    const std::string name = p.name.substr(0, p.name.size() - std::string(own).size()) + other;
-    for (std::size_t k = 0; k < w.garment.panels.size(); ++k) {
-      const design::Panel& q = w.garment.panels[k];
-      if (q.name != name || q.placement.kind != p.placement.kind || q.placement.part != p.placement.part ||
-          q.placement.body != p.placement.body)
-        continue;
-      const Extent a = extent_of(w, panel), b = extent_of(w, k);
-      return std::abs(a.low.x() + b.high.x()) < kSame && std::abs(a.high.x() + b.low.x()) < kSame;
-    }
-  }
-  return false;
+  const std::optional<std::size_t> image = image_of(w.garment, panel);
+  if (!image) return false;
+  const Extent a = extent_of(w, panel), b = extent_of(w, *image);
+  return std::abs(a.low.x() + b.high.x()) < kSame && std::abs(a.high.x() + b.low.x()) < kSame;
 }
 
 /// The x of the panel that comes to the middle of its part: the axis of what is symmetric, else its own middle.
@@ -188,6 +180,9 @@ bool wrap_ring(Workspace& w, const Ring& ring) {
   }
   double center = (x_low + x_high) / 2;
   double needed = ring_width(w, ring);
+  std::vector<OnRing> on_ring;
+  for (std::size_t k = 0; k < ring.panels.size(); ++k) on_ring.push_back({ring.panels[k], middle_x(w, ring.panels[k]), ring.base[k]});
+  lift_laps(w, on_ring);
   double offset = ring.offset;
   // A garment wider than the body stands off it evenly: a girth line grown by d is longer by 2 pi d.
   double length = WrapCurve(points, center, offset).length();
@@ -206,6 +201,26 @@ bool wrap_ring(Workspace& w, const Ring& ring) {
                      ring.body->name),
          "check the level and the part it is placed on, or give a larger offset");
   return false;
+}
+
+/// Lays what hangs flared, and leaves in the ring what does not.
+void take_flared(Workspace& w, Ring& ring) {
+  const std::vector<std::size_t> flared = lay_flared(w, *ring.body, ring.panels);
+  if (flared.empty()) return;
+  Ring rest{.body = ring.body, .panels = {}, .base = {}, .offset = ring.offset};
+  for (std::size_t k = 0; k < ring.panels.size(); ++k) {
+    const std::size_t panel = ring.panels[k];
+    if (std::find(flared.begin(), flared.end(), panel) != flared.end()) {
+      w.done[panel] = true;
+      continue;
+    }
+    const Extent e = extent_of(w, panel);
+    rest.panels.push_back(panel);
+    rest.base.push_back(ring.base[k]);
+    rest.low = std::min(rest.low, ring.base[k] + e.low.y());
+    rest.high = std::max(rest.high, ring.base[k] + e.high.y());
+  }
+  ring = std::move(rest);
 }
 
 bool place_rings(Workspace& w) {
@@ -245,7 +260,10 @@ bool place_rings(Workspace& w) {
     ring->high = std::max(ring->high, y1);
     ring->offset = std::max({ring->offset, placement.offset, 0.003});
   }
-  for (const Ring& ring : rings) ok = wrap_ring(w, ring) && ok;
+  for (Ring& ring : rings) {
+    take_flared(w, ring);
+    if (!ring.panels.empty()) ok = wrap_ring(w, ring) && ok;
+  }
   return ok;
 }
 

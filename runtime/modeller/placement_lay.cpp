@@ -47,9 +47,36 @@ struct Fit {
   Index on = 0, beside = 0;  ///< vertices on the other one, and outside of it
 };
 
-/// None where they share fewer than two particles.
+/// Which way is up in the pattern of a panel that has a place, unit; up in the pattern where it lies level.
+Vector2d up_in_pattern(const model::Model& model, std::size_t panel, const std::vector<Vector3d>& place) {
+  constexpr double kLevel = 0.1;  // of the rise of an upright panel
+  const model::PanelRange& range = model.panels[panel];
+  Vector2d rise = Vector2d::Zero();
+  double area = 0;
+  for (Index t = range.first_triangle; t < range.first_triangle + range.n_triangles; ++t) {
+    const model::Indices<3>& c = model.triangle[t];
+    Matrix2d sides;
+    sides << (model.vertex_uv[c[1]] - model.vertex_uv[c[0]]).transpose(), (model.vertex_uv[c[2]] - model.vertex_uv[c[0]]).transpose();
+    const double twice = sides.determinant();
+    if (twice <= 0) continue;
+    rise += twice * sides.inverse() * Vector2d(place[c[1]].y() - place[c[0]].y(), place[c[2]].y() - place[c[0]].y());
+    area += twice;
+  }
+  return rise.norm() > kLevel * area ? rise.normalized() : Vector2d(0, 1);
+}
+
+/// Of two ways in which a straight seam fits, whether the panel lies face down. It lies where there is clearly more cloth under it;
+/// else as it is drawn, its upper end up (a flap hangs from its upper edge, a welt stands on its lower one); else face up.
+bool lies_turned(const Motion& plain, const Motion& over, double on_plain, double on_over, const Vector2d& up) {
+  constexpr double kClearlyMore = 0.05;  // of the vertices: fewer lie on cloth or beside it by chance
+  constexpr double kHigher = 0.1;        // of the length
+  if (std::abs(on_plain - on_over) > kClearlyMore) return on_over > on_plain;
+  return up.dot(over.turn.col(1)) > up.dot(plain.turn.col(1)) + kHigher;
+}
+
+/// `up` is a direction in the pattern of `other`. None where they share fewer than two particles.
 std::optional<Fit> fit(const model::Model& model, std::size_t panel, std::size_t other, const std::vector<Vector3d>& flat_shape,
-                       const model::FlatIndex& flat) {
+                       const model::FlatIndex& flat, const Vector2d& up) {
   auto own = [&](Index v) -> Vector2d { return flat_shape[v].head<2>(); };
   std::map<Index, Index> of_other;  // particle to vertex
   const model::PanelRange &range = model.panels[panel], &under = model.panels[other];
@@ -69,10 +96,12 @@ std::optional<Fit> fit(const model::Model& model, std::size_t panel, std::size_t
       n += flat.locate(motion(own(v)), weights) >= 0 && *std::min_element(weights.begin(), weights.end()) > -1e-6;
     return n;
   };
-  // A straight seam fits both ways: then the panel lies where there is more cloth under it.
+  // A straight seam fits both ways.
   const double same = 1e-8 * static_cast<double>(here.size());  // m^2, a tenth of a millimetre each
   Fit found;
-  found.turned = std::abs(plain.error - over.error) < same ? lies_on(over) > lies_on(plain) : over.error < plain.error;
+  const double all = range.n_vertices;
+  found.turned = std::abs(plain.error - over.error) < same ? lies_turned(plain, over, lies_on(plain) / all, lies_on(over) / all, up)
+                                                           : over.error < plain.error;
   found.motion = found.turned ? over : plain;
   found.on = lies_on(found.motion);
   found.beside = range.n_vertices - found.on;
@@ -83,7 +112,8 @@ std::optional<Fit> fit(const model::Model& model, std::size_t panel, std::size_t
 
 bool turns_beyond(const model::Model& model, std::size_t panel, std::size_t other, const std::vector<Vector3d>& flat_shape) {
   constexpr double kBeside = 0.05;  // of its vertices
-  const std::optional<Fit> found = fit(model, panel, other, flat_shape, model::FlatIndex(model, static_cast<Index>(other)));
+  const Vector2d drawn(0, 1);  // the other one may have no place yet
+  const std::optional<Fit> found = fit(model, panel, other, flat_shape, model::FlatIndex(model, static_cast<Index>(other)), drawn);
   return found && found->turned && found->beside > kBeside * (found->on + found->beside);
 }
 
@@ -92,7 +122,7 @@ bool lay_panel(const model::Model& model, std::size_t panel, std::size_t other, 
   auto own = [&](Index v) -> Vector2d { return flat_shape[v].head<2>(); };
   const model::PanelRange& range = model.panels[panel];
   const model::FlatIndex flat(model, static_cast<Index>(other));
-  const std::optional<Fit> found = fit(model, panel, other, flat_shape, flat);
+  const std::optional<Fit> found = fit(model, panel, other, flat_shape, flat, up_in_pattern(model, other, place));
   if (!found) return false;
   const Motion& motion = found->motion;
   const bool turned = found->turned;

@@ -1,5 +1,8 @@
 #pragma once
 // What the steps of a placement share.
+#include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "runtime/base/finding.hpp"
@@ -26,6 +29,23 @@ template <class F>
 void for_each_vertex(const model::Model& model, std::size_t panel, const F& f) {
   const model::PanelRange& range = model.panels[panel];
   for (model::Index v = range.first_vertex; v < range.first_vertex + range.n_vertices; ++v) f(v);
+}
+
+/// The other one of a pair ("front.left", "front_right") on the same part of the same body.
+inline std::optional<std::size_t> image_of(const design::Garment& garment, std::size_t panel) {
+  const design::Panel& p = garment.panels[panel];
+  for (const char* joint : {".", "_"})
+    for (const auto& [own, other] : {std::pair{"left", "right"}, std::pair{"right", "left"}}) {
+      const std::string end = std::string(joint) + own;
+      if (!p.name.ends_with(end)) continue;
+      const std::string name = p.name.substr(0, p.name.size() - end.size()) + joint + other;
+      for (std::size_t k = 0; k < garment.panels.size(); ++k) {
+        const design::Panel& q = garment.panels[k];
+        if (q.name == name && q.placement.kind == p.placement.kind && q.placement.part == p.placement.part && q.placement.body == p.placement.body)
+          return k;
+      }
+    }
+  return std::nullopt;
 }
 
 }  // namespace garment::modeller
