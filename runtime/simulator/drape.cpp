@@ -42,9 +42,10 @@ constexpr int kMostRepairs = 12;            // times that a garment at rest may 
 constexpr double kExtraOffset = 1e-3;       // m, by which a particle of a pierced part is pushed farther, each time
 constexpr double kMostExtraOffset = 20e-3;  // m
 constexpr double kSlidingResidual = 0.05;   // rest where sliders act and the drape is to be exact: stiff, they hold or slip to the last bits
-constexpr int kEveningSteps = 60;           // until a garment that begins uneven must lie as its own image
+constexpr int kEveningSteps = 60;           // until what begins uneven must lie as its own image
 constexpr int kMostEvenSteps = 1500;        // of settling, after which the two halves go their own ways
-constexpr double kSymmetric = 1e-4;         // m, from its own image
+constexpr double kLeastPaired = 0.95;       // of the particles; fewer are no image any more
+constexpr double kSymmetric = 3e-3;         // m, from its own image
 constexpr int kIncrements = 10;             // of the weight, where the cloth's own friction acts
 
 bool all_finite(const Vectors& x) {
@@ -115,8 +116,8 @@ void push_pierced(const ContactMesh& mesh, const Tangle& tangle, Relaxation& rel
 /// At rest the exact test decides: what still pierces a body is pushed farther out, and settling goes on.
 class Way {
  public:
-  Way(Drape& d, const ContactMesh& all) : d_(d), all_(all), mirror_(d.settings.symmetric ? Mirror(d.model, d.bodies) : Mirror()), relaxation_(d.model, d.bodies, relaxation_settings(d)), awake_(d.model, d.bodies, mirror_, relaxation_) {
-    relaxation_.keep_even(mirror_);
+  Way(Drape& d, const ContactMesh& all) : d_(d), all_(all), mirror_(d.settings.symmetric ? Mirror(d.model, d.bodies) : Mirror()), kept_(mirror_), relaxation_(d.model, d.bodies, relaxation_settings(d)), awake_(d.model, d.bodies, kept_, relaxation_) {
+    relaxation_.keep_even(kept_);
     if (d.settings.self_collision) relaxation_.set_tangle(find_tangle(relaxation_.mesh(), no_bodies(), d.x));
     if (d.settings.near_rest) {
       enter(Stage::settling);
@@ -150,15 +151,14 @@ class Way {
   }
 
   Relaxation& relaxation() { return relaxation_; }
-  bool even() const { return !mirror_.empty() && mirror_.unevenness(d_.x) < kSymmetric; }
+  bool even() const { return !kept_.empty() && mirror_.unevenness(d_.x) < kSymmetric; }
 
   /// In a checkpoint between two steps.
   void keep(Archive& a) {
     keep_positions(a, d_.x, d_.model.n_particles(), relaxation_.mesh().largest_contact_distance);
     a.keep(stage_, Stage::settling);
-    bool even = !mirror_.empty();
-    a.keep(even);
-    if (a.reading() && !even) relaxation_.keep_even(mirror_ = Mirror());
+    kept_.keep(a, d_.model.n_particles());
+    if (a.reading() && a.ok()) relaxation_.keep_even(kept_);
     for (int* count : {&uneven_, &steps_in_stage_, &refused_, &repairs_, &d_.report.steps, &increment_, &most_steps_, &calming_, &pause_}) {
       a.keep(*count);
       a.demand(*count >= 0 && *count <= kMostCounted);
@@ -242,14 +242,17 @@ class Way {
     return settings;
   }
 
-  /// A garment whose halves cannot come to lie alike, or do not come to rest so, is no longer kept as its own image.
+  /// Places that cannot come to lie evenly, between layers whose triangles differ on the two sides, go their own ways; where they
+  /// are many, or the garment does not come to rest, all do.
   void part_halves() {
-    if (mirror_.empty()) return;
-    if (!relaxation_.uneven()) uneven_ = 0;
-    else ++uneven_;
-    if (uneven_ < kEveningSteps && !(stage_ == Stage::settling && steps_in_stage_ > kMostEvenSteps)) return;
-    mirror_ = Mirror();
-    relaxation_.keep_even(mirror_);
+    if (kept_.empty()) return;
+    uneven_ = relaxation_.uneven() ? uneven_ + 1 : 0;
+    const bool restless = stage_ == Stage::settling && steps_in_stage_ > kMostEvenSteps;
+    if (uneven_ < kEveningSteps && !restless) return;
+    uneven_ = 0;
+    kept_ = kept_.where_even(d_.x, kEven);
+    if (restless || static_cast<double>(kept_.n_paired()) < kLeastPaired * static_cast<double>(d_.x.size())) kept_ = Mirror();
+    relaxation_.keep_even(kept_);
     relaxation_.forget_motion();
   }
 
@@ -306,7 +309,8 @@ class Way {
 
   Drape& d_;
   const ContactMesh& all_;
-  Mirror mirror_;
+  const Mirror mirror_;
+  Mirror kept_;  // what of it is kept
   Relaxation relaxation_;
   Awake awake_;
   Stage stage_ = Stage::soft;

@@ -30,7 +30,6 @@ constexpr double kLeastSwing = 2e-5;       // m
 constexpr double kLeastDamping = 10, kMostDamping = 1e4;  // N/m
 constexpr double kForgetDamping = 0.8;     // per step
 constexpr double kMostCoasted = 0.5;       // cells, ahead of a step
-constexpr double kEven = 1e-5;             // m, between a particle and the image of its image
 constexpr double kHoldSpeed = 5e-3;        // m per step towards a hold's place
 
 double largest(const Vectors& v) {

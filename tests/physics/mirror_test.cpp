@@ -101,12 +101,23 @@ TEST_CASE("mirror: a garment that differs on its two sides is none") {
     INFO(what);
     CHECK(simulator::Mirror(other, middle).empty());
   };
-  std::size_t left = 0;  // a spring of one side
-  while (m.start[static_cast<std::size_t>(m.spring[left][0])].x() > -0.1) ++left;
-  const auto at = static_cast<std::size_t>(m.spring[left][0]);
-  differs("a button's mass", [&](model::Model& o) { o.mass[at] *= 1.5; });
+  std::size_t at = 0;  // a particle of one side
+  while (m.start[at].x() > -0.1) ++at;
+  differs("a button's mass", [&](model::Model& o) { o.mass[at] *= 4; });
   differs("a fabric's friction", [&](model::Model& o) { o.friction[at] += 0.1; });
-  differs("a longer thread", [&](model::Model& o) { o.spring_rest[left] *= 1.1; });
+  auto on_the_left = [&](Index i) { return m.start[static_cast<std::size_t>(i)].x() > 0.1; };  // a quarter of the sheet
+  differs("threads drawn out", [&](model::Model& o) {
+    for (std::size_t s = 0; s < o.spring.size(); ++s)
+      if (on_the_left(o.spring[s][0])) o.spring_rest[s] *= 1.02;
+  });
+  differs("softer cloth", [&](model::Model& o) {
+    for (std::size_t b = 0; b < o.bend.size(); ++b)
+      if (on_the_left(o.bend[b][1])) o.bend_rigidity[b] *= 0.9;
+  });
+  differs("heavier cloth", [&](model::Model& o) {
+    for (std::size_t i = 0; i < o.mass.size(); ++i)
+      if (on_the_left(static_cast<Index>(i))) o.mass[i] *= 1.03;
+  });
   differs("a pin", [&](model::Model& o) {
     o.hold_particle.push_back(static_cast<Index>(at));
     o.hold_kind.push_back(model::HoldKind::point);
@@ -125,6 +136,16 @@ TEST_CASE("mirror: a garment that differs on its two sides is none") {
   differs("a slope", [](model::Model& o) { o.gravity = {1, -9.8, 0}; });
 }
 
+TEST_CASE("mirror: what neighbours on one side divide otherwise makes no difference") {
+  const model::Model m = sheet();
+  model::Model other = m;
+  std::size_t at = 0;
+  while (m.start[at].x() > -0.1) ++at;
+  other.mass[at] *= 1.5;
+  other.mass[at + 21] *= 0.5;
+  CHECK_FALSE(simulator::Mirror(other, {ball()}).empty());
+}
+
 TEST_CASE("mirror: of a part, what has no image in it goes its own way") {
   const model::Model m = sheet();
   const simulator::Mirror mirror(m, {});
@@ -137,4 +158,28 @@ TEST_CASE("mirror: of a part, what has no image in it goes its own way") {
   std::vector<char> free(40, 1);
   free[0] = 0;
   CHECK(mirror.of_part(particle, free).image()[20] == -1);
+}
+
+TEST_CASE("mirror: places that lie unevenly are parted, and a checkpoint keeps who is still paired") {
+  const model::Model m = sheet();
+  const simulator::Mirror mirror(m, {});
+  REQUIRE(mirror.n_paired() == m.n_particles());
+  std::vector<Vector3d> x = m.start;
+  x[3].y() += 0.002;
+  simulator::Mirror some = mirror.where_even(x, simulator::kEven);
+  CHECK(some.n_paired() == m.n_particles() - 2);
+  CHECK(some.image()[3] == -1);
+  CHECK(some.image()[17] == -1);
+  CHECK(some.unevenness(x) < 1e-12);
+  CHECK(mirror.unevenness(x) == Approx(0.002));
+  Archive out;
+  some.keep(out, m.n_particles());
+  const std::string bytes = out.take();
+  Archive in(bytes), of_another(bytes);
+  simulator::Mirror back, wrong;
+  back.keep(in, m.n_particles());
+  CHECK(in.whole());
+  CHECK(back.image() == some.image());
+  wrong.keep(of_another, m.n_particles() + 1);
+  CHECK_FALSE(of_another.ok());
 }
