@@ -42,7 +42,7 @@ constexpr int kMostRepairs = 12;            // times that a garment at rest may 
 constexpr double kExtraOffset = 1e-3;       // m, by which a particle of a pierced part is pushed farther, each time
 constexpr double kMostExtraOffset = 20e-3;  // m
 constexpr double kSlidingResidual = 0.05;   // rest where sliders act and the drape is to be exact: stiff, they hold or slip to the last bits
-constexpr int kEveningSteps = 60;           // until what begins uneven must lie as its own image
+constexpr int kEveningSteps = 60;           // that may begin uneven
 constexpr int kMostEvenSteps = 1500;        // of settling, after which the two halves go their own ways
 constexpr double kLeastPaired = 0.95;       // of the particles; fewer are no image any more
 constexpr double kSymmetric = 3e-3;         // m, from its own image
@@ -243,15 +243,16 @@ class Way {
   }
 
   /// Places that cannot come to lie evenly, between layers whose triangles differ on the two sides, go their own ways; where they
-  /// are many, or the garment does not come to rest, all do.
+  /// are many, or others follow, or the garment does not come to rest, all do.
   void part_halves() {
     if (kept_.empty()) return;
-    uneven_ = relaxation_.uneven() ? uneven_ + 1 : 0;
+    uneven_ += relaxation_.uneven() ? 1 : 0;
     const bool restless = stage_ == Stage::settling && steps_in_stage_ > kMostEvenSteps;
     if (uneven_ < kEveningSteps && !restless) return;
     uneven_ = 0;
+    const bool parted = kept_.n_paired() < d_.x.size();
     kept_ = kept_.where_even(d_.x, kEven);
-    if (restless || static_cast<double>(kept_.n_paired()) < kLeastPaired * static_cast<double>(d_.x.size())) kept_ = Mirror();
+    if (restless || parted || static_cast<double>(kept_.n_paired()) < kLeastPaired * static_cast<double>(d_.x.size())) kept_ = Mirror();
     relaxation_.keep_even(kept_);
     relaxation_.forget_motion();
   }
@@ -315,7 +316,7 @@ class Way {
   Awake awake_;
   Stage stage_ = Stage::soft;
   int most_steps_ = d_.settings.max_steps, increment_ = 0;  // of the weight, 0: the sliders have not begun
-  int uneven_ = 0;  // steps in a row that ended uneven
+  int uneven_ = 0;  // steps that began uneven
   int steps_in_stage_ = 0, refused_ = 0, repairs_ = 0;
   int calming_ = 0;  // steps to go until the place is judged, that one included
   int pause_ = 0;    // steps until the next try
