@@ -52,7 +52,7 @@ struct DrapeReport {
   int steps = 0;
   double residual = 0;              ///< RMS residual over RMS particle weight, from the final positions
   double newton_step = 0;           ///< predicted largest Newton step, m
-  bool symmetric = false;           ///< was kept as its own image to the end
+  bool symmetric = false;           ///< was kept as its own image to the end, and is within 3 mm of it
   double energy = 0;                ///< elastic + gravity, J
   std::size_t self_intersections = 0;   ///< triangle pairs, exact test
   std::size_t body_intersections = 0;   ///< triangle pairs cloth x body, exact test

@@ -371,11 +371,9 @@ StepReport Relaxation::step(Vectors& x) {
   double predicted = 0;  // decrease of the energy that the quadratic model promises, at least half of f . dx
   for (std::size_t i = 0; i < x.size(); ++i) predicted += wish_[i].dot(dx_[i]);
   bool driven = drive(x);
-  if (inner_.idle() && !mirror_.empty()) {
-    uneven_ = mirror_.unevenness(x) > kEven;
-    driven |= uneven_;
-    mirror_.even(x, dx_);
-  }
+  uneven_ = inner_.idle() && mirror_.unevenness(x) > kEven;
+  driven |= uneven_;
+  if (inner_.idle()) mirror_.even(x, dx_);
   TruncateStats cut = keep_apart(x);
   double after = search(x, before, driven, report);
   // Cutting single particles back turns the step, perhaps uphill. The whole step made shorter does not turn.
