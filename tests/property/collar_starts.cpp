@@ -12,29 +12,14 @@
 #include "runtime/base/host.hpp"
 #include "runtime/modeller/modeller.hpp"
 #include "runtime/simulator/certificate.hpp"
+#include "tests/support/declared.hpp"
 
 using namespace garment;
 
 namespace {
 
-struct Declared {
-  design::Garment garment;
-  std::vector<body::Body> bodies;
-};
-
-Declared declared(const std::string& script, const std::map<std::string, std::string>& params = {}) {
-  grammar::Sources sources;
-  interpreter::InterpretOptions options;
-  options.stdlib_dir = GARMENT_STDLIB_DIR;
-  options.params = params;
-  interpreter::Interpretation result = interpreter::interpret(sources, sources.add("x", script), system_host(), options);
-  std::string told;
-  for (const auto& d : result.diagnostics)
-    if (d.severity == Severity::error) told += grammar::render(d, sources, false);
-  INFO(told);
-  REQUIRE(result.ok());
-  return {std::move(result.garment), std::move(result.bodies)};
-}
+using test::Declared;
+using test::declared;
 
 std::string example(const std::string& name) {
   std::ifstream in(std::string(GARMENT_SOURCE_DIR) + "/examples/" + name + ".garment");

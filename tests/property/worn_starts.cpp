@@ -14,6 +14,7 @@
 #include "runtime/base/host.hpp"
 #include "runtime/modeller/modeller.hpp"
 #include "runtime/simulator/certificate.hpp"
+#include "tests/support/declared.hpp"
 
 using namespace garment;
 using Eigen::Vector3d;
@@ -34,16 +35,7 @@ struct Started {
 };
 
 Started started(const std::string& script, const std::map<std::string, std::string>& params = {}, double coarsen = 1) {
-  grammar::Sources sources;
-  interpreter::InterpretOptions options;
-  options.stdlib_dir = GARMENT_STDLIB_DIR;
-  options.params = params;
-  interpreter::Interpretation result = interpreter::interpret(sources, sources.add("x", script), system_host(), options);
-  std::string told;
-  for (const auto& d : result.diagnostics)
-    if (d.severity == Severity::error) told += grammar::render(d, sources, false);
-  INFO(told);
-  REQUIRE(result.ok());
+  test::Declared result = test::declared(script, params);
   modeller::ModelOptions how;
   how.coarsen = coarsen;
   modeller::ModelResult built = modeller::build_model(result.garment, result.bodies, how);
